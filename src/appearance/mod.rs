@@ -1,0 +1,1 @@
+//! What targets look like.

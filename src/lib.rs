@@ -1,0 +1,43 @@
+//! Multi-object tracking: per frame, detections go in and identities that last come out.
+//!
+//! ```
+//! use gentrack2::{Config, Detection, Frame, Tracker};
+//!
+//! let mut tracker = Tracker::new(&Config::new("gentrack2")?)?;
+//! for t in 0..10 {
+//!     let detections = [Detection::new(10.0 + 3.0 * t as f64, 20.0, 40.0, 80.0, 0.9)];
+//!     let output = tracker.step(&Frame::new(&detections))?;
+//!     for track in &output.reported {
+//!         println!("{} {:?}", track.id, track.rect);
+//!     }
+//! }
+//! # Ok::<(), gentrack2::Error>(())
+//! ```
+//!
+//! The same library has a C ABI; `include/gentrack2.h` is its manual.
+
+pub mod appearance;
+pub mod assignment;
+pub mod candidates;
+pub mod config;
+pub mod error;
+pub mod frame;
+pub mod geometry;
+pub mod image;
+pub mod parameters;
+pub mod random;
+pub mod track;
+pub mod tracker;
+pub mod trackers;
+mod validation;
+
+pub mod capi;
+
+pub use config::Config;
+pub use error::Error;
+pub use frame::{CameraMotion, Detection, Embeddings, Frame};
+pub use geometry::Rect;
+pub use image::{ImageView, PixelFormat};
+pub use track::{Output, Particle, Track, TrackState};
+pub use tracker::Tracker;
+pub use trackers::Algorithm;

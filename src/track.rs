@@ -1,0 +1,80 @@
+//! What comes back from a step.
+
+use crate::geometry::{Rect, State};
+
+/// Where a track stands in its life.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum TrackState {
+    /// Born recently, not yet trusted.
+    Tentative,
+    /// Trusted, and matched with a detection the last time the detector ran (a *strong* track of the paper).
+    Confirmed,
+    /// Trusted, but without a detection the last time the detector ran (a *weak* track); its box is a prediction.
+    Lost,
+}
+
+/// One track after a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Track {
+    /// Identity: unique within its tracker until that is reset, never used again.
+    pub id: u64,
+    /// Box in pixels in this frame.
+    pub rect: Rect,
+    /// Change of the box per second: centre in px/s, size in px/s.
+    pub velocity: State,
+    /// State.
+    pub state: TrackState,
+    /// Score of the detection last taken, in `[0, 1]`.
+    pub score: f64,
+    /// Class of the detection last taken.
+    pub class_id: i32,
+    /// Tag of the detection last taken.
+    pub tag: u64,
+    /// Row of the detection taken in this frame, if any.
+    pub detection_index: Option<usize>,
+    /// Frames since birth, the birth frame counted as 1.
+    pub age: u32,
+    /// Detections taken in its life.
+    pub hits: u32,
+    /// Frames since a detection was last taken: 0 when matched in this frame.
+    pub frames_since_match: u32,
+}
+
+/// One particle of a track: a hypothesis of its box.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Particle {
+    /// Box in pixels.
+    pub rect: Rect,
+    /// Change of the box per second.
+    pub velocity: State,
+    /// Fitness in `[0, 1]` after optimisation (eq. 4).
+    pub fitness: f64,
+}
+
+/// Results of one step, in buffers that are reused from step to step.
+#[derive(Clone, Debug, Default)]
+pub struct Output {
+    /// Tracks the algorithm stands for in this frame: what a user draws or writes to a file. Matched tracks, and
+    /// lost ones whose predicted box is trusted.
+    pub reported: Vec<Track>,
+    /// Tracks too young to be reported.
+    pub tentative: Vec<Track>,
+    /// Live tracks without a detection that are not reported, with their predicted box.
+    pub lost: Vec<Track>,
+    /// Identities that ended in this step; each is named once.
+    pub ended: Vec<u64>,
+    /// For each detection the identity of the track that took it, 0 for none.
+    pub track_of_detection: Vec<u64>,
+}
+
+impl Output {
+    /// Empties all lists and sizes `track_of_detection` for a frame of `detections` rows.
+    pub fn begin(&mut self, detections: usize) {
+        self.reported.clear();
+        self.tentative.clear();
+        self.lost.clear();
+        self.ended.clear();
+        self.track_of_detection.clear();
+        self.track_of_detection.resize(detections, 0);
+    }
+}

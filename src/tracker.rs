@@ -1,0 +1,130 @@
+//! The handle: one video stream tracked by one algorithm.
+
+use crate::config::Config;
+use crate::error::Error;
+use crate::frame::Frame;
+use crate::parameters::CommonParameters;
+use crate::track::{Output, Particle};
+use crate::trackers::{Algorithm, TrackingAlgorithm};
+use crate::validation::{History, check_frame};
+
+/// What an algorithm gets besides the frame.
+#[derive(Debug)]
+pub struct StepContext<'a> {
+    /// Time since the previous frame in nominal frame intervals: 1 without timestamps.
+    pub elapsed: f64,
+    /// Nominal frames per second.
+    pub frame_rate: f64,
+    /// Seed of the random numbers.
+    pub seed: u64,
+    /// Most live tracks.
+    pub max_tracks: usize,
+    /// Where identities come from.
+    pub ids: &'a mut IdSource,
+}
+
+/// Hands out identities.
+#[derive(Clone, Debug)]
+pub struct IdSource {
+    next: u64,
+}
+
+impl IdSource {
+    /// The next identity, never given out before.
+    pub fn take(&mut self) -> u64 {
+        let id = self.next;
+        self.next += 1;
+        id
+    }
+}
+
+/// A tracker of one video stream.
+pub struct Tracker {
+    algorithm: Algorithm,
+    common: CommonParameters,
+    inner: Box<dyn TrackingAlgorithm>,
+    ids: IdSource,
+    history: History,
+    output: Output,
+}
+
+impl Tracker {
+    /// A tracker with a copy of the configuration.
+    pub fn new(config: &Config) -> Result<Self, Error> {
+        Ok(Self {
+            algorithm: config.algorithm(),
+            common: config.common.clone(),
+            inner: config.parameters.build()?,
+            ids: IdSource { next: config.common.first_id as u64 },
+            history: History::default(),
+            output: Output::default(),
+        })
+    }
+
+    /// The algorithm at work.
+    pub fn algorithm(&self) -> Algorithm {
+        self.algorithm
+    }
+
+    /// Advances by one frame. On an error the tracker, its last output included, is as before the call.
+    pub fn step(&mut self, frame: &Frame<'_>) -> Result<&Output, Error> {
+        check_frame(frame, &self.common, &self.history)?;
+        let elapsed = self.elapsed_frames(frame.timestamp_ns);
+        self.remember(frame, elapsed);
+        self.output.begin(frame.detections.len());
+        let mut context = StepContext {
+            elapsed,
+            frame_rate: self.common.frame_rate,
+            seed: self.common.seed as u64,
+            max_tracks: self.common.max_tracks as usize,
+            ids: &mut self.ids,
+        };
+        self.inner.step(frame, &mut context, &mut self.output);
+        Ok(&self.output)
+    }
+
+    /// The output of the last step; empty before the first.
+    pub fn output(&self) -> &Output {
+        &self.output
+    }
+
+    /// The particles of a live track, as they were used in the last step; empty for algorithms without particles.
+    pub fn particles(&self, id: u64) -> Result<&[Particle], Error> {
+        let live = [&self.output.reported, &self.output.tentative, &self.output.lost];
+        if !live.iter().any(|list| list.iter().any(|t| t.id == id)) {
+            return Err(Error::UnknownTrack(id));
+        }
+        Ok(self.inner.particles(id))
+    }
+
+    /// Forgets everything but the configuration: the next step is as the first of a new tracker.
+    pub fn reset(&mut self) {
+        self.inner.reset();
+        self.ids = IdSource { next: self.common.first_id as u64 };
+        self.history = History::default();
+        self.output.begin(0);
+    }
+
+    fn elapsed_frames(&self, now: Option<i64>) -> f64 {
+        match (now, self.history.timestamp_ns) {
+            (Some(now), Some(before)) => now.abs_diff(before) as f64 * 1e-9 * self.common.frame_rate,
+            _ => 1.0,
+        }
+    }
+
+    fn remember(&mut self, frame: &Frame<'_>, elapsed: f64) {
+        if let Some(embeddings) = &frame.embeddings {
+            self.history.embedding_dimension = Some(embeddings.dimension);
+        }
+        let interval = (elapsed / self.common.frame_rate * 1e9) as i64;
+        // A frame without a timestamp among frames with them moves the clock by one nominal interval.
+        self.history.timestamp_ns =
+            frame.timestamp_ns.or(self.history.timestamp_ns.map(|before| before.saturating_add(interval)));
+    }
+}
+
+impl std::fmt::Debug for Tracker {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Tracker").field("algorithm", &self.algorithm).finish_non_exhaustive()
+    }
+}

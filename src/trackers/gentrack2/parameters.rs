@@ -1,0 +1,320 @@
+//! The knobs of GenTrack2, with the paper's symbols.
+//!
+//! Nothing is in pixels: distances are multiples of the target's box. Times are in *ticks* of 1/30 s, so that one set
+//! of defaults serves every frame rate: at the default `frame_rate` of 30 a tick is a frame.
+
+use crate::error::Error;
+use crate::geometry::Rect;
+use crate::parameters::{choice, parameters};
+use crate::trackers::TrackingAlgorithm;
+
+choice! {
+    /// Where the particles of a frame start.
+    pub enum ParticleSource {
+        /// At the target's previous optimal state.
+        OptimalState = "optimal_state",
+        /// At the previous frame's particles.
+        PriorParticles = "prior_particles",
+    }
+}
+
+choice! {
+    /// What happens to particles of low fitness after the swarm optimisation.
+    pub enum Resampling {
+        /// Nothing.
+        None = "none",
+        /// They are replaced by the global best.
+        Global = "global",
+        /// They are dropped.
+        Discard = "discard",
+    }
+}
+
+choice! {
+    /// The previous state that the history fitness compares with.
+    pub enum HistoryReference {
+        /// Moved on by its velocity.
+        Predicted = "predicted",
+        /// As it was: the paper's text.
+        Previous = "previous",
+    }
+}
+
+choice! {
+    /// How a matched track takes its detection.
+    pub enum StrongUpdate {
+        /// Prediction and detection are blended by the detection's confidence.
+        Blend = "blend",
+        /// The detection replaces the state: the paper's text (eq. 9).
+        Replace = "replace",
+    }
+}
+
+choice! {
+    /// How an unmatched track moves.
+    pub enum WeakMotion {
+        /// By its own velocity alone (eq. 12).
+        Own = "own",
+        /// With its trustworthy neighbours (eq. 12-14).
+        Neighbours = "neighbours",
+    }
+}
+
+choice! {
+    /// Which pairs of past states give slopes.
+    pub enum RegressionLags {
+        /// Two lags, half and the whole of the window: as accurate as all, at a fraction of the cost.
+        Sparse = "sparse",
+        /// Every lag up to the window: the paper's text.
+        All = "all",
+    }
+}
+
+parameters! {
+    /// Parameters of GenTrack2.
+    pub struct GenTrack2Parameters {
+        // Particle sampling (eq. 3).
+        /// Particles per target.
+        particles: i64 = 8, [1, 256], "particles", "S";
+        /// Where particles start: the previous optimal state, or the prior particles.
+        particle_source: ParticleSource = ParticleSource::OptimalState, [], "", "";
+        /// With prior particles: the share of their spread around the target's state that is kept from frame to
+        /// frame. Below 1 they are pulled back to the target; 1 is the paper's text, which diverges.
+        prior_spread: f64 = 0.3, [0.0, 1.0], "", "";
+        /// Contribution of the velocity to the motion.
+        velocity_gain: f64 = 1.0, [0.0, 2.0], "", "lambda_V";
+        /// Contribution of the random displacement to the motion.
+        noise_gain: f64 = 1.0, [0.0, 10.0], "", "lambda_X";
+        /// Bound of the random displacement per tick: of the centre in box widths; of the size a quarter of it, in
+        /// widths and heights.
+        state_noise: f64 = 0.02, [0.0, 1.0], "box widths/tick", "epsilon_X U_X^max";
+        /// Bound of the random change of velocity per tick, in the same proportions.
+        velocity_noise: f64 = 0.005, [0.0, 1.0], "box widths/tick", "epsilon_V U_V^max";
+        /// Bound of the centre's velocity.
+        max_velocity: f64 = 0.5, [0.01, 10.0], "box widths/tick", "V^max (u, v)";
+        /// Bound of the size's velocity.
+        max_size_velocity: f64 = 0.05, [0.0, 1.0], "box sizes/tick", "V^max (w, h)";
+        /// One particle is the prediction itself, the others are drawn in pairs mirrored about it: the noise then
+        /// does not shift their mean. Off: independent draws, the paper's text.
+        antithetic: bool = true, [], "", "";
+
+        // Swarm optimisation (eq. 4-6).
+        /// Swarm iterations per frame; 0 leaves the particles where they were drawn.
+        pso_iterations: i64 = 3, [0, 100], "iterations", "";
+        /// Share of its swarm velocity that a particle keeps.
+        pso_inertia: f64 = 0.5, [0.0, 1.0], "", "";
+        /// Pull towards a particle's own best.
+        pso_cognitive: f64 = 1.0, [0.0, 4.0], "", "";
+        /// Pull towards the swarm's best.
+        pso_social: f64 = 1.0, [0.0, 4.0], "", "";
+        /// Weight of the history fitness. The three weights are divided by their sum.
+        sigma_h: f64 = 0.5, [0.0, 1.0], "", "sigma_h";
+        /// Weight of the exploration fitness.
+        sigma_p: f64 = 0.2, [0.0, 1.0], "", "sigma_p";
+        /// Weight of the social fitness.
+        sigma_i: f64 = 0.3, [0.0, 1.0], "", "sigma_i";
+        /// Share of appearance in a fitness; motion has the rest, and all of it without an image.
+        lambda_s: f64 = 0.8, [0.0, 1.0], "", "lambda_s = 1 - lambda_m";
+        /// Distance at which the motion fitness is 0.
+        fitness_distance: f64 = 1.0, [0.01, 10.0], "box diagonals", "d_o,m";
+        /// Which previous state the history fitness compares with.
+        history_reference: HistoryReference = HistoryReference::Predicted, [], "", "";
+        /// Share of position in the social fitness; velocity has the rest.
+        xi_p: f64 = 0.5, [0.0, 1.0], "", "xi_p = 1 - xi_V";
+        /// What happens to particles of low fitness after the optimisation.
+        resampling: Resampling = Resampling::Global, [], "", "";
+        /// The share of particles that counts as of low fitness; at least one particle always stays.
+        resampling_fraction: f64 = 0.25, [0.0, 1.0], "", "";
+
+        // Appearance.
+        /// Cosine similarity of HOG vectors that counts as no similarity: they are non-negative, so cosines crowd
+        /// near 1. 0 is the raw cosine.
+        hog_offset: f64 = 0.45, [0.0, 0.95], "", "";
+        /// Share of the old template when a strong track learns its new appearance.
+        template_momentum: f64 = 0.9, [0.0, 1.0], "", "";
+        /// Weight of HOG dissimilarity in the association cost; 0 keeps appearance to the swarm, the paper's text.
+        hog_cost: f64 = 0.4, [0.0, 2.0], "", "";
+        /// Added to `cost_gate` where HOG takes part in the cost.
+        hog_gate: f64 = 0.2, [0.0, 2.0], "", "";
+        /// Weight of embedding dissimilarity, `(1 - cosine)/2`, in the association cost.
+        embedding_cost: f64 = 0.5, [0.0, 2.0], "", "";
+        /// Added to `cost_gate` where embeddings take part in the cost.
+        embedding_gate: f64 = 0.25, [0.0, 2.0], "", "";
+
+        // Neighbours.
+        /// Distance within which another target is a neighbour.
+        neighbour_radius: f64 = 1.0, [0.0, 20.0], "box diagonals", "epsilon_nei";
+        /// The same for a weak track that found none.
+        neighbour_radius_expanded: f64 = 2.0, [0.0, 40.0], "box diagonals", "epsilon_nei^exp";
+
+        // Association (eq. 7-8).
+        /// Weight of the motion cost.
+        lambda_p: f64 = 0.7, [0.0, 1.0], "", "lambda_p";
+        /// Weight of the detection's lack of confidence.
+        lambda_d: f64 = 0.1, [0.0, 1.0], "", "lambda_d";
+        /// Weight of the track's penalty.
+        lambda_h: f64 = 0.1, [0.0, 1.0], "", "lambda_h";
+        /// Weight of the difference of the boxes' bottom edges over the detection's height.
+        lambda_foot: f64 = 0.2, [0.0, 1.0], "", "";
+        /// Multiply the IoU by the square root of the overlap of the boxes' vertical extents.
+        height_overlap: bool = true, [], "", "";
+        /// Distance cost scale in mean diagonals of track and detection: the smallest ...
+        distance_scale_min: f64 = 0.4, [0.01, 10.0], "box diagonals", "d_o,d";
+        /// ... and the largest; in between it is `distance_scale_gain` times the track's prediction residual.
+        distance_scale_max: f64 = 1.0, [0.01, 10.0], "box diagonals", "d_o,d";
+        /// Prediction residuals per distance scale.
+        distance_scale_gain: f64 = 6.0, [0.0, 100.0], "", "";
+        /// Largest cost of an admissible pair, and the price of leaving a track unmatched.
+        cost_gate: f64 = 0.3, [0.0, 2.0], "", "";
+        /// Smallest (height-aware) IoU of prediction and detection of an admissible pair. With 0 pairs that do not
+        /// overlap are admissible, up to the distance scale.
+        min_iou: f64 = 0.1, [0.0, 1.0], "", "";
+        /// Detections below this score are ignored.
+        min_score: f64 = 0.05, [0.0, 1.0], "", "";
+        /// Detections below this score are low ...
+        low_score: f64 = 0.6, [0.0, 1.0], "", "";
+        /// ... and admissible only up to this motion cost.
+        low_score_gate: f64 = 0.2, [0.0, 1.0], "", "";
+        /// Tentative tracks, and tracks missed for `doubt_after`, take only detections of at least this score.
+        doubt_score: f64 = 0.5, [0.0, 1.0], "", "";
+        /// Time without a match after which `doubt_score` applies.
+        doubt_after: f64 = 4.0, [0.0, 1e6], "ticks", "";
+
+        // Births (eq. 10).
+        /// Smallest score of a detection that starts a track.
+        birth_score: f64 = 0.7, [0.0, 1.0], "", "";
+        /// No birth where a track matched or born in this frame overlaps by more than this IoU; 1 turns it off.
+        birth_iou: f64 = 0.5, [0.0, 1.0], "", "";
+        /// Matches in a row, the birth counted, from which a track is confirmed. Births in the first frame are
+        /// confirmed at once.
+        confirm_hits: i64 = 3, [1, 100], "hits", "";
+
+        // Strong updates (eq. 9).
+        /// How a matched track takes its detection.
+        strong_update: StrongUpdate = StrongUpdate::Blend, [], "", "";
+        /// Weight of a detection of score 1 in the blended centre.
+        blend_centre: f64 = 0.7, [0.0, 1.0], "", "";
+        /// Weight of a detection of score 1 in the blended size.
+        blend_size: f64 = 0.6, [0.0, 1.0], "", "";
+        /// Distance from the previous state from which a detection is taken half-way only.
+        jump_distance: f64 = 1.0, [0.0, 100.0], "box diagonals", "d_o";
+        /// Penalty of a match with a detection of score 0; it falls to 0 at score 1. 0 is the paper's text.
+        strong_penalty: f64 = 0.3, [0.0, 1.0], "", "X^m,pen";
+
+        // Weak updates (eq. 11-14).
+        /// How an unmatched track moves.
+        weak_motion: WeakMotion = WeakMotion::Neighbours, [], "", "";
+        /// Speed below which a track, or its neighbours' median, counts as standing.
+        still_speed: f64 = 0.003, [0.0, 1.0], "box diagonals/tick", "tau_V";
+        /// Cosine between the velocities of track and neighbours from which they move together.
+        delta_d: f64 = 0.95, [-1.0, 1.0], "", "delta_d";
+        /// Trust of a weak track in its swarm's global best.
+        sigma_g: f64 = 0.0, [0.0, 1.0], "", "sigma_g";
+        /// Strength of the push away from neighbours that move otherwise; never more than the track's own speed.
+        epsilon_s: f64 = 0.0, [0.0, 1.0], "", "epsilon_s";
+        /// Age at which a weak track ends.
+        max_age: f64 = 100.0, [1.0, 1e6], "ticks", "partial_max";
+        /// History fitness of the global best where there is no image to tell.
+        blind_fitness: f64 = 0.9, [0.0, 1.0], "", "f_g,PSO^h";
+        /// History fitness from which a weak track beside a strong one recovers instead of ageing; 1 turns
+        /// recovery off. Needs an image.
+        recovery_threshold: f64 = 1.0, [0.0, 1.0], "", "rho_re";
+        /// Time without a match after which a track ends whatever its age.
+        max_missed: f64 = 30.0, [0.0, 1e6], "ticks", "";
+        /// Places where targets enter and leave: weak tracks centred in them age faster.
+        entrance_areas: Vec<Rect> = Vec::new(), [], "px", "";
+        /// How much faster.
+        entrance_penalty: f64 = 0.5, [0.0, 1.0], "", "Delta_e";
+        /// End tracks whose centre leaves the image (where its size is known).
+        end_outside: bool = true, [], "", "";
+
+        // Velocity regression (eq. 16).
+        /// Past states used.
+        history: i64 = 40, [2, 256], "states", "H";
+        /// Longest lag between two of them.
+        regression_window: i64 = 10, [1, 256], "states", "F";
+        /// Which lags are used once there are enough states.
+        regression_lags: RegressionLags = RegressionLags::Sparse, [], "", "";
+        /// Largest slope of the centre that counts, ...
+        slope_limit: f64 = 0.2, [0.0, 10.0], "box diagonals/tick", "tau (u, v)";
+        /// ... and of the size.
+        size_slope_limit: f64 = 0.1, [0.0, 10.0], "box sizes/tick", "tau (w, h)";
+
+        // Reporting.
+        /// Frames without a match for which a confirmed track is still reported.
+        report_missed: i64 = 1, [0, 1000], "frames", "";
+        /// The same for tracks whose motion has proved predictable.
+        coast: f64 = 10.0, [0.0, 1e6], "ticks", "";
+        /// Matches such a track must have had.
+        coast_hits: i64 = 10, [0, 1_000_000], "hits", "";
+        /// Largest prediction residual of such a track, growing by a tenth per tick without a match.
+        coast_residual: f64 = 0.1, [0.0, 10.0], "box diagonals", "";
+        /// Smallest share of past predictions of lost tracks that proved right for coasting to go on.
+        coast_success: f64 = 0.5, [0.0, 1.0], "", "";
+    }
+}
+
+impl GenTrack2Parameters {
+    /// Names of the presets, the default first.
+    pub const PRESETS: &'static [&'static str] = &["default", "paper"];
+
+    /// The values of a preset. `paper` is the literal reading of the published equations.
+    pub fn preset(name: &str) -> Option<Self> {
+        let defaults = Self::default();
+        match name {
+            "default" => Some(defaults),
+            "paper" => Some(Self {
+                antithetic: false,
+                history_reference: HistoryReference::Previous,
+                hog_offset: 0.0,
+                template_momentum: 0.0,
+                hog_cost: 0.0,
+                hog_gate: 0.0,
+                lambda_p: 0.8,
+                lambda_foot: 0.0,
+                height_overlap: false,
+                distance_scale_max: 0.4,
+                min_iou: 0.0,
+                low_score_gate: 1.0,
+                doubt_score: 0.0,
+                birth_iou: 1.0,
+                confirm_hits: 1,
+                strong_update: StrongUpdate::Replace,
+                strong_penalty: 0.0,
+                weak_motion: WeakMotion::Neighbours,
+                delta_d: 0.9,
+                sigma_g: 0.3,
+                epsilon_s: 0.05,
+                recovery_threshold: 0.8,
+                history: 10,
+                regression_window: 5,
+                regression_lags: RegressionLags::All,
+                coast: 0.0,
+                ..defaults
+            }),
+            _ => None,
+        }
+    }
+
+    /// A tracker with these parameters; refuses combinations that make no sense.
+    pub fn build(&self) -> Result<Box<dyn TrackingAlgorithm>, Error> {
+        self.check_combinations()?;
+        Ok(Box::new(super::GenTrack2::new(self.clone())))
+    }
+
+    fn check_combinations(&self) -> Result<(), Error> {
+        let refuse = |key: &str, reason: String| Err(Error::ParameterValue { key: key.to_string(), reason });
+        if self.sigma_h + self.sigma_p + self.sigma_i <= 0.0 {
+            return refuse("sigma_h", "sigma_h, sigma_p and sigma_i must not all be 0".to_string());
+        }
+        if self.regression_window > self.history {
+            let (window, history) = (self.regression_window, self.history);
+            return refuse("regression_window", format!("{window} is more than history, {history}"));
+        }
+        if self.distance_scale_min > self.distance_scale_max {
+            let (min, max) = (self.distance_scale_min, self.distance_scale_max);
+            return refuse("distance_scale_min", format!("{min} is more than distance_scale_max, {max}"));
+        }
+        Ok(())
+    }
+}

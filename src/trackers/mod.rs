@@ -1,0 +1,99 @@
+//! The algorithms, by name.
+
+pub mod gentrack2;
+
+use crate::error::Error;
+use crate::frame::Frame;
+use crate::parameters::ParameterSet;
+use crate::track::{Output, Particle};
+use crate::tracker::StepContext;
+
+/// What every algorithm can do.
+pub trait TrackingAlgorithm: Send {
+    /// Advances by one frame, which has been checked, and fills `output`, which is empty but for
+    /// `track_of_detection` (all 0).
+    fn step(&mut self, frame: &Frame<'_>, context: &mut StepContext<'_>, output: &mut Output);
+
+    /// Forgets all tracks.
+    fn reset(&mut self);
+
+    /// The particles of a live track.
+    fn particles(&self, _id: u64) -> &[Particle] {
+        &[]
+    }
+}
+
+/// Declares the registry: per algorithm its name, parameters and the function that builds it.
+macro_rules! algorithms {
+    ($($(#[doc = $doc:literal])+ $variant:ident = $name:literal, $parameters:ty;)+) => {
+        /// The algorithms that exist.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum Algorithm { $($(#[doc = $doc])+ $variant),+ }
+
+        impl Algorithm {
+            /// All of them.
+            pub const ALL: &'static [Algorithm] = &[$(Algorithm::$variant),+];
+
+            /// The name by which it is chosen.
+            pub const fn name(self) -> &'static str {
+                match self { $(Algorithm::$variant => $name),+ }
+            }
+
+            /// What it is, in a line.
+            pub fn description(self) -> &'static str {
+                match self { $(Algorithm::$variant => concat!($($doc),+).trim()),+ }
+            }
+
+            /// Names of its parameter presets, the default first.
+            pub fn presets(self) -> &'static [&'static str] {
+                match self { $(Algorithm::$variant => <$parameters>::PRESETS),+ }
+            }
+        }
+
+        /// The parameters of one algorithm.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum AlgorithmParameters { $($(#[doc = $doc])+ $variant($parameters)),+ }
+
+        impl AlgorithmParameters {
+            /// The defaults.
+            pub fn defaults(algorithm: Algorithm) -> Self {
+                match algorithm { $(Algorithm::$variant => Self::$variant(Default::default())),+ }
+            }
+
+            /// A named set of values.
+            pub fn preset(algorithm: Algorithm, name: &str) -> Option<Self> {
+                match algorithm { $(Algorithm::$variant => <$parameters>::preset(name).map(Self::$variant)),+ }
+            }
+
+            /// As a table.
+            pub fn as_set(&self) -> &dyn ParameterSet {
+                match self { $(Self::$variant(p) => p),+ }
+            }
+
+            /// As a table to change.
+            pub fn as_set_mut(&mut self) -> &mut dyn ParameterSet {
+                match self { $(Self::$variant(p) => p),+ }
+            }
+
+            /// A tracker with these parameters; refuses combinations that make no sense.
+            pub fn build(&self) -> Result<Box<dyn TrackingAlgorithm>, Error> {
+                match self { $(Self::$variant(p) => p.build()),+ }
+            }
+        }
+    };
+}
+
+algorithms! {
+    /// GenTrack2: particles guided by swarm optimisation, deterministic association, neighbour-aware updates.
+    GenTrack2 = "gentrack2", gentrack2::GenTrack2Parameters;
+}
+
+impl Algorithm {
+    /// The algorithm of that name.
+    pub fn from_name(name: &str) -> Result<Self, Error> {
+        Self::ALL.iter().copied().find(|a| a.name() == name).ok_or_else(|| Error::UnknownAlgorithm {
+            name: name.to_string(),
+            known: Self::ALL.iter().map(|a| a.name()).collect::<Vec<_>>().join(", "),
+        })
+    }
+}

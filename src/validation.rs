@@ -1,0 +1,142 @@
+//! Checks of a frame before any tracker sees it. They read only, so a refused frame leaves no trace.
+
+use crate::error::Error;
+use crate::frame::{CameraMotion, Detection, Embeddings, Frame};
+use crate::parameters::CommonParameters;
+
+/// Largest absolute coordinate and size of a box in pixels: far beyond any image, and small enough that areas and
+/// sums of squares stay exact enough to compare.
+pub const MAX_COORDINATE: f64 = 1e12;
+
+/// What earlier frames fixed.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct History {
+    /// Length of the embeddings seen so far.
+    pub embedding_dimension: Option<usize>,
+    /// The last timestamp seen.
+    pub timestamp_ns: Option<i64>,
+}
+
+/// Checks everything about a frame.
+pub fn check_frame(frame: &Frame<'_>, common: &CommonParameters, history: &History) -> Result<(), Error> {
+    let limit = common.max_detections as usize;
+    if frame.detections.len() > limit {
+        return Err(Error::Limit {
+            what: "detections",
+            count: frame.detections.len(),
+            limit,
+            parameter: "max_detections",
+        });
+    }
+    if frame.detector_skipped && !frame.detections.is_empty() {
+        let reason = format!("is set, yet there are {} detections", frame.detections.len());
+        return Err(Error::Frame { field: "detector_skipped", reason });
+    }
+    for (row, detection) in frame.detections.iter().enumerate() {
+        check_detection(row, detection)?;
+    }
+    if let Some(embeddings) = &frame.embeddings {
+        check_embeddings(embeddings, frame.detections.len(), history.embedding_dimension)?;
+    }
+    if let Some(motion) = &frame.camera_motion {
+        check_camera_motion(motion)?;
+    }
+    check_size(frame)?;
+    check_timestamp(frame.timestamp_ns, history.timestamp_ns)
+}
+
+fn check_detection(row: usize, detection: &Detection) -> Result<(), Error> {
+    let refuse = |field, reason| Err(Error::Detection { row, field, reason });
+    let r = &detection.rect;
+    for (field, x) in [("left", r.left), ("top", r.top), ("width", r.width), ("height", r.height)] {
+        if !x.is_finite() {
+            return refuse(field, format!("is {x}, must be finite"));
+        }
+        if x.abs() > MAX_COORDINATE {
+            return refuse(field, format!("is {x}, its absolute value must be at most {MAX_COORDINATE:e}"));
+        }
+    }
+    for (field, x) in [("width", r.width), ("height", r.height)] {
+        if x < 0.0 {
+            return refuse(field, format!("is {x}, must not be negative"));
+        }
+    }
+    if !(0.0..=1.0).contains(&detection.score) {
+        return refuse("score", format!("is {}, must be in 0..=1", detection.score));
+    }
+    Ok(())
+}
+
+/// Largest number of components of an embedding.
+pub const MAX_EMBEDDING_DIMENSION: usize = 16_384;
+
+fn check_embeddings(embeddings: &Embeddings<'_>, rows: usize, known: Option<usize>) -> Result<(), Error> {
+    let refuse = |field, reason| Err(Error::Embeddings { field, reason });
+    let Embeddings { data, dimension, stride } = *embeddings;
+    if dimension == 0 || dimension > MAX_EMBEDDING_DIMENSION {
+        return refuse("dimension", format!("is {dimension}, must be in 1..={MAX_EMBEDDING_DIMENSION}"));
+    }
+    if let Some(known) = known.filter(|k| *k != dimension) {
+        return refuse("dimension", format!("is {dimension}, earlier frames had {known}"));
+    }
+    if stride < dimension {
+        return refuse("stride", format!("is {stride}, must be at least the dimension {dimension}"));
+    }
+    let needed = match rows {
+        0 => Some(0),
+        _ => stride.checked_mul(rows - 1).and_then(|n| n.checked_add(dimension)),
+    };
+    match needed {
+        Some(needed) if data.len() >= needed => {}
+        _ => return refuse("data", format!("holds {} numbers, too few for {rows} rows", data.len())),
+    }
+    for row in 0..rows {
+        if let Some(column) = embeddings.row(row).iter().position(|x| !x.is_finite()) {
+            return refuse("data", format!("row {row}, component {column} is not finite"));
+        }
+    }
+    Ok(())
+}
+
+fn check_camera_motion(motion: &CameraMotion) -> Result<(), Error> {
+    let m = &motion.0;
+    if let Some(index) = m.iter().position(|x| !x.is_finite() || x.abs() > MAX_COORDINATE) {
+        return Err(Error::CameraMotion(format!("element {index} is {}, must be finite", m[index])));
+    }
+    let (kx, ky) = motion.size_factors();
+    let determinant = m[0] * m[4] - m[1] * m[3];
+    // A camera does not zoom a thousandfold between two frames; an all-zero matrix is a forgotten one.
+    let sane = |k: f64| (1e-3..=1e3).contains(&k);
+    if !sane(kx) || !sane(ky) || determinant.abs() < 1e-6 {
+        return Err(Error::CameraMotion(format!(
+            "scales by {kx} and {ky} with determinant {determinant}, must be an invertible map with scales in 0.001..=1000"
+        )));
+    }
+    Ok(())
+}
+
+fn check_size(frame: &Frame<'_>) -> Result<(), Error> {
+    let Some((width, height)) = frame.size else { return Ok(()) };
+    for (field, side) in [("width", width), ("height", height)] {
+        if side == 0 || side > crate::image::MAX_IMAGE_SIDE {
+            let reason = format!("is {side}, must be in 1..={}", crate::image::MAX_IMAGE_SIDE);
+            return Err(Error::Frame { field, reason });
+        }
+    }
+    match frame.image {
+        Some(image) if (image.width(), image.height()) != (width, height) => {
+            let reason = format!("is {width}x{height}, the image is {}x{}", image.width(), image.height());
+            Err(Error::Frame { field: "size", reason })
+        }
+        _ => Ok(()),
+    }
+}
+
+fn check_timestamp(now: Option<i64>, before: Option<i64>) -> Result<(), Error> {
+    match (now, before) {
+        (Some(now), Some(before)) if now <= before => {
+            Err(Error::Timestamp(format!("is {now}, must be greater than the previous frame's {before}")))
+        }
+        _ => Ok(()),
+    }
+}
