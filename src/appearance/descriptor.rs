@@ -1,0 +1,108 @@
+//! The HOG vector of one box, and how alike two of them are.
+
+use super::orientation::BINS;
+
+/// Columns of cells in a box.
+pub const CELLS_X: usize = 4;
+/// Rows of cells in a box.
+pub const CELLS_Y: usize = 8;
+/// Numbers in a descriptor: cells row by row from the left-top, [`BINS`] numbers each.
+pub const DESCRIPTOR_LEN: usize = CELLS_X * CELLS_Y * BINS;
+
+/// Mean gradient per cell and orientation, non-negative, scaled to unit Euclidean norm; all zero when the box has no
+/// texture.
+pub type Descriptor = [f32; DESCRIPTOR_LEN];
+
+/// The descriptor of a box without texture.
+pub const EMPTY: Descriptor = [0.0; DESCRIPTOR_LEN];
+
+/// Sums run in this many lanes in a fixed order: they vectorise, and every machine computes the same bits.
+const LANES: usize = 16;
+
+/// Cosine similarity of two unit-norm descriptors (`f_s` of the paper's eq. 5) in `[0, 1]`; 0 when either is
+/// [`EMPTY`].
+pub fn cosine(a: &Descriptor, b: &Descriptor) -> f32 {
+    dot(a, b).min(1.0)
+}
+
+/// Exponential moving average of a template: `keep * template + (1 - keep) * observed`, scaled to unit norm again.
+/// `keep` is in `[0, 1]`. An empty observation leaves the template as it is.
+pub fn blend(template: &mut Descriptor, observed: &Descriptor, keep: f32) {
+    if *observed == EMPTY {
+        return;
+    }
+    for (t, o) in template.iter_mut().zip(observed) {
+        *t = keep * *t + (1.0 - keep) * o;
+    }
+    normalize(template);
+}
+
+/// Scales to unit Euclidean norm; an all-zero vector stays.
+pub(super) fn normalize(descriptor: &mut Descriptor) {
+    let squared = dot(descriptor, descriptor);
+    if squared > 0.0 {
+        let scale = 1.0 / squared.sqrt();
+        descriptor.iter_mut().for_each(|value| *value *= scale);
+    }
+}
+
+fn dot(a: &Descriptor, b: &Descriptor) -> f32 {
+    let mut sums = [0.0f32; LANES];
+    for (a, b) in a.chunks_exact(LANES).zip(b.chunks_exact(LANES)) {
+        for lane in 0..LANES {
+            sums[lane] += a[lane] * b[lane];
+        }
+    }
+    let mut width = LANES / 2;
+    while width > 0 {
+        for lane in 0..width {
+            sums[lane] += sums[lane + width];
+        }
+        width /= 2;
+    }
+    sums[0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn from_values(values: &[(usize, f32)]) -> Descriptor {
+        let mut d = EMPTY;
+        values.iter().for_each(|&(i, v)| d[i] = v);
+        d
+    }
+
+    #[test]
+    fn cosine_of_known_vectors() {
+        let a = from_values(&[(0, 0.6), (100, 0.8)]);
+        let b = from_values(&[(0, 0.8), (255, 0.6)]);
+        assert!((cosine(&a, &a) - 1.0).abs() < 1e-6);
+        assert!((cosine(&a, &b) - 0.48).abs() < 1e-6);
+        assert_eq!(cosine(&a, &from_values(&[(7, 1.0)])), 0.0);
+        assert_eq!(cosine(&a, &EMPTY), 0.0);
+        assert_eq!(cosine(&EMPTY, &EMPTY), 0.0);
+    }
+
+    #[test]
+    fn normalize_gives_unit_length() {
+        // |(3, 4)| = 5.
+        let mut d = from_values(&[(3, 3.0), (200, 4.0)]);
+        normalize(&mut d);
+        assert!((d[3] - 0.6).abs() < 1e-6 && (d[200] - 0.8).abs() < 1e-6);
+        let mut zero = EMPTY;
+        normalize(&mut zero);
+        assert_eq!(zero, EMPTY);
+    }
+
+    #[test]
+    fn blend_averages_and_stays_a_unit_vector() {
+        // .75 e0 + .25 e1 has norm sqrt(.625) = .790569: (.948683, .316228).
+        let mut t = from_values(&[(0, 1.0)]);
+        blend(&mut t, &from_values(&[(1, 1.0)]), 0.75);
+        assert!((t[0] - 0.948_683).abs() < 1e-6 && (t[1] - 0.316_228).abs() < 1e-6);
+        let before = t;
+        blend(&mut t, &EMPTY, 0.75);
+        assert_eq!(t, before);
+    }
+}
