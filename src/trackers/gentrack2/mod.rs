@@ -1,27 +1,303 @@
 //! GenTrack2, one file per step of the paper's Algorithm 1.
+//!
+//! | step | file |
+//! |---|---|
+//! | camera motion | [`target`] |
+//! | neighbour search | [`neighbours`] |
+//! | particle sampling, eq. 3 | [`particle_sampling`] |
+//! | swarm guidance, eq. 4-6 | [`swarm`], [`fitness`], [`resampling`] |
+//! | data association, eq. 7-8 | [`data_association`], [`observations`], [`residual`] |
+//! | strong tracks, eq. 9 | [`strong_update`], [`appearance_model`] |
+//! | new tracks, eq. 10 | [`new_tracks`] |
+//! | weak tracks, eq. 11-14 | [`weak_motion`], [`ageing`] |
+//! | removal, eq. 15 | [`removal`] |
+//! | velocity regression, eq. 16 | [`velocity_regression`] |
+//! | what is reported | [`coasting`], [`reporting`] |
 
+mod ageing;
+mod appearance_model;
+mod coasting;
+mod data_association;
+mod fitness;
+mod neighbours;
+mod new_tracks;
+mod observations;
 mod parameters;
+mod particle_sampling;
+mod removal;
+mod reporting;
+mod resampling;
+mod residual;
+mod strong_update;
+mod swarm;
+mod target;
+mod velocity_regression;
+mod weak_motion;
 
 pub use parameters::*;
 
 use crate::frame::Frame;
-use crate::track::Output;
+use crate::geometry::{Rect, State};
+use crate::track::{Output, Particle};
 use crate::tracker::StepContext;
 use crate::trackers::TrackingAlgorithm;
+
+use coasting::CoastRecord;
+use data_association::{DataAssociation, Sight};
+use neighbours::Neighbours;
+use new_tracks::Births;
+use observations::Observations;
+use residual::SceneResidual;
+use swarm::{SEARCH_MARGIN, Swarm};
+use target::{Match, Target};
+use velocity_regression::{Reach, VelocityRegression};
+use weak_motion::TrustedMedian;
+
+/// Ticks in a second: the unit of time of all parameters.
+const TICKS_PER_SECOND: f64 = 30.0;
 
 /// The tracker.
 pub struct GenTrack2 {
     parameters: GenTrack2Parameters,
+    memory: Memory,
+    work: Workspace,
+}
+
+/// What is kept from frame to frame.
+#[derive(Default)]
+struct Memory {
+    /// Live targets, by ascending identity.
+    targets: Vec<Target>,
+    /// Now, in ticks since the first frame.
+    time: f64,
+    /// Ticks since the detector last ran.
+    since_detector: f64,
+    /// Whether a frame with the detector has been seen.
+    started: bool,
+    scene: SceneResidual,
+    record: CoastRecord,
+}
+
+/// Buffers that are only there to be reused.
+#[derive(Default)]
+struct Workspace {
+    /// Ended targets, whose buffers serve the next ones.
+    spare: Vec<Target>,
+    observations: Observations,
+    swarm: Swarm,
+    neighbours: Neighbours,
+    expanded: Neighbours,
+    association: DataAssociation,
+    births: Births,
+    regression: VelocityRegression,
+    trusted: TrustedMedian,
+    states: Vec<State>,
+    predictions: Vec<(State, State)>,
+    particles: ParticleList,
 }
 
 impl GenTrack2 {
     /// A tracker without tracks.
     pub fn new(parameters: GenTrack2Parameters) -> Self {
-        Self { parameters }
+        Self { parameters, memory: Memory::default(), work: Workspace::default() }
+    }
+
+    /// Starts the frame: moves everything with the camera and predicts.
+    fn begin_frame(&mut self, frame: &Frame<'_>, ticks: f64) {
+        self.memory.time += ticks;
+        self.memory.since_detector += ticks;
+        self.memory.record.decay(ticks);
+        for target in &mut self.memory.targets {
+            if let Some(motion) = &frame.camera_motion {
+                target.follow_camera(motion);
+            }
+            target.previous = target.state;
+            target.predicted = particle_sampling::predict(&self.parameters, &target.state, &target.velocity, ticks);
+            target.matched = Match::None;
+            target.frames = target.frames.saturating_add(1);
+            target.frames_since_match = target.frames_since_match.saturating_add(1);
+        }
+    }
+
+    /// Particle sampling of Algorithm 1: initial particles, then swarm guidance.
+    fn sample_particles(&mut self, frame: &Frame<'_>, ticks: f64) {
+        let (p, work) = (&self.parameters, &mut self.work);
+        let targets = &mut self.memory.targets;
+        work.states.clear();
+        work.states.extend(targets.iter().map(|t| t.state));
+        work.neighbours.search(&work.states, p.neighbour_radius, |_| true);
+        work.predictions.clear();
+        work.predictions.extend(targets.iter().map(|t| (t.predicted, t.velocity)));
+        for (index, target) in targets.iter_mut().enumerate() {
+            resampling::refill(target, p.particles as usize);
+            particle_sampling::sample(p, target, ticks);
+            let looking = p.lambda_s > 0.0
+                && target.has_template
+                && frame.image.is_some_and(|i| work.swarm.hog.prepare(&i, &target.predicted.into(), SEARCH_MARGIN));
+            let neighbours = work.neighbours.of(index).iter().map(|j| work.predictions[*j as usize]);
+            work.swarm.guide(p, target, neighbours, ticks, looking);
+            resampling::resample(p, target);
+        }
+    }
+
+    fn associate(&mut self, frame: &Frame<'_>) {
+        let work = &mut self.work;
+        let mut sight = Sight { image: frame.image.as_ref(), hog: &mut work.swarm.hog };
+        let (targets, scene) = (&mut self.memory.targets, &self.memory.scene);
+        work.association.associate(&self.parameters, targets, &mut work.observations, scene, &mut sight);
+    }
+
+    fn update_strong(&mut self, frame: &Frame<'_>, ticks: f64) {
+        let (p, work, memory) = (&self.parameters, &mut self.work, &mut self.memory);
+        let reach = Reach::new(p, ticks);
+        for target in &mut memory.targets {
+            let Some(index) = target.matched.index() else { continue };
+            let observed = work.observations.get(index);
+            let (detection, detected) = (observed.detection, observed.state);
+            if target.missed > 0.0 {
+                memory.record.found(target, &detection.rect);
+            } else if residual::is_telling(target, &detection) {
+                target.residual.learn(&mut memory.scene, &target.predicted, &detected);
+            }
+            strong_update::update(p, target, &detection);
+            appearance_model::learn(
+                p,
+                target,
+                &mut work.observations,
+                index,
+                frame.image.as_ref(),
+                &mut work.swarm.hog,
+            );
+            work.regression.learn(p, target, memory.time, reach);
+        }
+    }
+
+    fn update_weak(&mut self, ticks: f64, detector_ran: bool) {
+        let (p, work, targets) = (&self.parameters, &mut self.work, &mut self.memory.targets);
+        let (neighbours, states) = (&work.neighbours, &work.states);
+        let lonely = |i: usize| !targets[i].is_strong() && neighbours.of(i).is_empty();
+        work.expanded.search(states, p.neighbour_radius_expanded, lonely);
+        for index in 0..targets.len() {
+            if targets[index].is_strong() {
+                continue;
+            }
+            let near = match neighbours.of(index) {
+                [] => work.expanded.of(index),
+                near => near,
+            };
+            let trusted = work.trusted.over(targets, near);
+            let target = &mut targets[index];
+            target.state = weak_motion::moved(p, target, trusted.as_ref(), ticks);
+            if detector_ran {
+                target.missed += self.memory.since_detector;
+                target.missed_frames = target.missed_frames.saturating_add(1);
+                ageing::age(p, target, trusted.is_some(), self.memory.since_detector);
+            }
+        }
+    }
+
+    fn start_tracks(&mut self, frame: &Frame<'_>, context: &mut StepContext<'_>) {
+        let (p, work, memory) = (&self.parameters, &mut self.work, &mut self.memory);
+        let room = context.max_tracks.saturating_sub(memory.targets.len());
+        work.births.choose(p, &memory.targets, &work.observations, &work.association.taken, room);
+        for &index in &work.births.chosen {
+            let mut target = work.spare.pop().unwrap_or_else(Target::blank);
+            let detection = work.observations.get(index as usize).detection;
+            target.begin(context.ids.take(), &detection, index, context.seed, p.particles as usize);
+            target.confirmed = !memory.started || p.confirm_hits <= 1;
+            let image = frame.image.as_ref();
+            appearance_model::learn(p, &mut target, &mut work.observations, index as usize, image, &mut work.swarm.hog);
+            work.regression.learn(p, &mut target, memory.time, Reach::new(p, 1.0));
+            memory.targets.push(target);
+        }
+    }
+
+    fn remove_expired(&mut self, frame_size: Option<(u32, u32)>, output: &mut Output) {
+        let (p, work, memory) = (&self.parameters, &mut self.work, &mut self.memory);
+        let record = &mut memory.record;
+        let ended = memory.targets.extract_if(.., |t| removal::is_expired(p, t, frame_size));
+        work.spare.extend(ended.inspect(|target| {
+            record.gone(p, target);
+            output.ended.push(target.id);
+        }));
+    }
+
+    fn report(&mut self, frame_size: Option<(u32, u32)>, detector_ran: bool, output: &mut Output) {
+        let (p, memory) = (&self.parameters, &mut self.memory);
+        for target in &mut memory.targets {
+            if detector_ran {
+                let predicted = !removal::is_outside(target, frame_size)
+                    && coasting::is_reported(p, target, &memory.scene, &memory.record);
+                target.reported = target.confirmed && (target.is_strong() || predicted);
+            }
+            reporting::report(target, &self.work.observations, output);
+        }
+        self.work.particles.fill(&memory.targets);
     }
 }
 
 impl TrackingAlgorithm for GenTrack2 {
-    fn step(&mut self, _frame: &Frame<'_>, _context: &mut StepContext<'_>, _output: &mut Output) {}
-    fn reset(&mut self) {}
+    fn step(&mut self, frame: &Frame<'_>, context: &mut StepContext<'_>, output: &mut Output) {
+        let ticks = context.elapsed * TICKS_PER_SECOND / context.frame_rate;
+        let detector_ran = !frame.detector_skipped;
+        self.begin_frame(frame, ticks);
+        self.work.observations.prepare(frame, self.parameters.min_score);
+        self.sample_particles(frame, ticks);
+        if detector_ran {
+            self.associate(frame);
+            self.update_strong(frame, ticks);
+        }
+        self.update_weak(ticks, detector_ran);
+        if detector_ran {
+            self.start_tracks(frame, context);
+            self.memory.started = true;
+            self.memory.since_detector = 0.0;
+        }
+        self.remove_expired(frame.size(), output);
+        self.report(frame.size(), detector_ran, output);
+    }
+
+    fn reset(&mut self) {
+        self.work.spare.append(&mut self.memory.targets);
+        self.memory = Memory::default();
+        self.work.particles.clear();
+    }
+
+    fn particles(&self, id: u64) -> &[Particle] {
+        self.work.particles.of(id)
+    }
+}
+
+/// The particles of all targets as they are handed out, in one flat list.
+#[derive(Default)]
+struct ParticleList {
+    owners: Vec<(u64, std::ops::Range<usize>)>,
+    list: Vec<Particle>,
+}
+
+impl ParticleList {
+    fn clear(&mut self) {
+        self.owners.clear();
+        self.list.clear();
+    }
+
+    fn fill(&mut self, targets: &[Target]) {
+        self.clear();
+        for target in targets {
+            let start = self.list.len();
+            self.list.extend(target.particles.iter().map(|s| Particle {
+                rect: Rect::from(s.state),
+                velocity: s.velocity * TICKS_PER_SECOND,
+                fitness: s.fitness,
+            }));
+            self.owners.push((target.id, start..self.list.len()));
+        }
+    }
+
+    fn of(&self, id: u64) -> &[Particle] {
+        match self.owners.binary_search_by_key(&id, |(owner, _)| *owner) {
+            Ok(at) => &self.list[self.owners[at].1.clone()],
+            Err(_) => &[],
+        }
+    }
 }

@@ -1,0 +1,301 @@
+//! Data association: the cost matrix of eq. 7-8 averaged over the particles, its gates, and the assignment.
+
+use crate::appearance::{HogWorkspace, cosine};
+use crate::assignment::{Assignment, Edge, UNMATCHED};
+use crate::candidates::OverlapSweep;
+use crate::geometry::{Rect, State};
+use crate::image::ImageView;
+
+use super::fitness::appearance;
+use super::observations::{Observations, Observed, unit_cosine};
+use super::parameters::GenTrack2Parameters;
+use super::residual::SceneResidual;
+use super::target::{Match, Target};
+
+/// Buffers of the association.
+#[derive(Default)]
+pub struct DataAssociation {
+    sweep: OverlapSweep,
+    solver: Assignment,
+    areas: [Vec<Rect>; 2],
+    edges: Vec<Edge>,
+    /// Whether each detection was taken.
+    pub taken: Vec<bool>,
+}
+
+/// What the association may look at.
+pub struct Sight<'a, 'i> {
+    /// The frame's image.
+    pub image: Option<&'a ImageView<'i>>,
+    /// Where descriptors are computed.
+    pub hog: &'a mut HogWorkspace,
+}
+
+impl DataAssociation {
+    /// Matches targets with detections: sets `matched` of every target and fills `taken`.
+    pub fn associate(
+        &mut self,
+        p: &GenTrack2Parameters,
+        targets: &mut [Target],
+        observations: &mut Observations,
+        scene: &SceneResidual,
+        sight: &mut Sight<'_, '_>,
+    ) {
+        self.collect_edges(p, targets, observations, scene, sight);
+        let columns = self.solver.solve(targets.len(), observations.len(), &self.edges, p.cost_gate);
+        self.taken.clear();
+        self.taken.resize(observations.len(), false);
+        for (target, &column) in targets.iter_mut().zip(columns) {
+            target.matched = match column {
+                UNMATCHED => Match::None,
+                column => {
+                    self.taken[column as usize] = true;
+                    Match::Detection(column)
+                }
+            };
+        }
+    }
+
+    fn collect_edges(
+        &mut self,
+        p: &GenTrack2Parameters,
+        targets: &[Target],
+        observations: &mut Observations,
+        scene: &SceneResidual,
+        sight: &mut Sight<'_, '_>,
+    ) {
+        self.edges.clear();
+        // Where pairs need not overlap, boxes are widened so that pairs within the distance scale do.
+        let reach = if p.min_iou > 0.0 { 0.0 } else { p.distance_scale_max };
+        let [rows, columns] = &mut self.areas;
+        rows.clear();
+        rows.extend(targets.iter().map(|t| widened(&t.predicted, reach)));
+        columns.clear();
+        columns.extend((0..observations.len()).map(|j| widened(&observations.get(j).state, reach)));
+        for &(row, column) in self.sweep.pairs(rows, columns) {
+            let target = &targets[row as usize];
+            let Some(mut cost) = motion_part(p, target, observations.get(column as usize), scene) else { continue };
+            cost += embedding_part(p, target, observations, column as usize);
+            // Looking is dear: not where the pair is out already.
+            if cost <= p.cost_gate + p.hog_gate {
+                cost += hog_part(p, target, observations, column as usize, sight);
+            }
+            if cost <= p.cost_gate {
+                self.edges.push(Edge { row, column, cost });
+            }
+        }
+    }
+}
+
+fn widened(state: &State, reach: f64) -> Rect {
+    let half = 0.5 * reach * state.diagonal();
+    let (half_width, half_height) = (half.max(0.5 * state.w), half.max(0.5 * state.h));
+    Rect::new(state.u - half_width, state.v - half_height, 2.0 * half_width, 2.0 * half_height)
+}
+
+/// Eq. 7 and the foot term, or `None` for an inadmissible pair.
+fn motion_part(p: &GenTrack2Parameters, target: &Target, observed: &Observed, scene: &SceneResidual) -> Option<f64> {
+    let detection = &observed.detection;
+    let doubtful = !target.confirmed || target.missed >= p.doubt_after;
+    if doubtful && detection.score < p.doubt_score {
+        return None;
+    }
+    if overlap(p, &target.predicted, &observed.state) < p.min_iou {
+        return None;
+    }
+    let scale = distance_scale(p, target, scene) * 0.5 * (target.state.diagonal() + observed.state.diagonal());
+    let sum: f64 = target.particles.iter().map(|s| motion_cost(p, &s.state, &observed.state, scale)).sum();
+    let motion = sum / target.particles.len() as f64;
+    if detection.score < p.low_score && motion > p.low_score_gate {
+        return None;
+    }
+    let foot = (target.predicted.v + 0.5 * target.predicted.h) - (observed.state.v + 0.5 * observed.state.h);
+    let foot = (foot.abs() / observed.state.h).min(1.0);
+    Some(total_cost(p, motion, detection.score, target.penalty) + p.lambda_foot * foot)
+}
+
+/// Eq. 7 from the particle-averaged motion cost.
+fn total_cost(p: &GenTrack2Parameters, motion: f64, score: f64, penalty: f64) -> f64 {
+    p.lambda_p * motion + p.lambda_d * (1.0 - score) + p.lambda_h * penalty
+}
+
+/// `C_m` of eq. 8.
+fn motion_cost(p: &GenTrack2Parameters, particle: &State, detected: &State, scale: f64) -> f64 {
+    (1.0 - overlap(p, particle, detected)) * (particle.distance(detected).min(scale) / scale)
+}
+
+/// `d_o,d` in mean diagonals: adapts to how well the track is predicted.
+fn distance_scale(p: &GenTrack2Parameters, target: &Target, scene: &SceneResidual) -> f64 {
+    (p.distance_scale_gain * target.residual.value(scene)).clamp(p.distance_scale_min, p.distance_scale_max)
+}
+
+/// IoU, with `height_overlap` times the square root of the overlap of the vertical extents: people side by side have
+/// the same height and foot, people behind each other have not.
+fn overlap(p: &GenTrack2Parameters, a: &State, b: &State) -> f64 {
+    let (a, b) = (Rect::from(*a), Rect::from(*b));
+    let iou = a.iou(&b);
+    if !p.height_overlap || iou <= 0.0 {
+        return iou;
+    }
+    let shared = a.bottom().min(b.bottom()) - a.top.max(b.top);
+    let whole = a.bottom().max(b.bottom()) - a.top.min(b.top);
+    iou * (shared / whole).sqrt()
+}
+
+/// Weighted embedding dissimilarity less the room that the gate gives for it.
+fn embedding_part(p: &GenTrack2Parameters, target: &Target, observations: &Observations, column: usize) -> f64 {
+    match observations.embedding(column) {
+        Some(embedding) if !target.embedding.is_empty() => {
+            p.embedding_cost * 0.5 * (1.0 - unit_cosine(&target.embedding, embedding)) - p.embedding_gate
+        }
+        _ => 0.0,
+    }
+}
+
+/// Weighted HOG dissimilarity less the room that the gate gives for it.
+fn hog_part(
+    p: &GenTrack2Parameters,
+    target: &Target,
+    observations: &mut Observations,
+    column: usize,
+    sight: &mut Sight<'_, '_>,
+) -> f64 {
+    if p.hog_cost == 0.0 || !target.has_template {
+        return 0.0;
+    }
+    match observations.descriptor(column, sight.image, sight.hog) {
+        Some(seen) => p.hog_cost * (1.0 - appearance(cosine(seen, &target.template) as f64, p.hog_offset)) - p.hog_gate,
+        None => 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::{Detection, Frame};
+
+    fn literal() -> GenTrack2Parameters {
+        GenTrack2Parameters { height_overlap: false, lambda_foot: 0.0, ..Default::default() }
+    }
+
+    fn target_at(state: State, particles: &[State]) -> Target {
+        let mut target = Target::blank();
+        target.begin(1, &Detection { rect: state.into(), score: 0.9, ..Default::default() }, 0, 0, particles.len());
+        target.confirmed = true;
+        for (particle, state) in target.particles.iter_mut().zip(particles) {
+            particle.state = *state;
+        }
+        target
+    }
+
+    #[test]
+    fn equation_8_multiplies_iou_cost_and_distance_cost() {
+        // 30 x 40 boxes 15 px apart: IoU = 15*40 / (2*1200 - 600) = 1/3; distance 15 of 50: (2/3) * .3 = .2.
+        let (a, b) = (State::new(0.0, 0.0, 30.0, 40.0), State::new(15.0, 0.0, 30.0, 40.0));
+        assert!((motion_cost(&literal(), &a, &b, 50.0) - 0.2).abs() < 1e-12);
+        // Beyond the scale the distance cost is 1.
+        assert!((motion_cost(&literal(), &a, &b, 10.0) - 2.0 / 3.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn height_overlap_scales_the_iou() {
+        // Same left and width, shifted down by half the height: IoU 1/3, vertical overlap 20/60: sqrt(1/3).
+        let (a, b) = (State::new(0.0, 0.0, 30.0, 40.0), State::new(0.0, 20.0, 30.0, 40.0));
+        let expected = (1.0 / 3.0) * (1.0f64 / 3.0).sqrt();
+        assert!((overlap(&GenTrack2Parameters::default(), &a, &b) - expected).abs() < 1e-12);
+    }
+
+    #[test]
+    fn equation_7_averages_over_particles_and_adds_confidence_and_penalty() {
+        let p = GenTrack2Parameters { distance_scale_min: 1.0, distance_scale_max: 1.0, ..literal() };
+        let state = State::new(0.0, 0.0, 30.0, 40.0);
+        // Particles at 0 and 15 px from the detection: C_m = 0 and .2, mean .1 (the scale is the diagonal, 50 px).
+        let mut target = target_at(state, &[state, State::new(15.0, 0.0, 30.0, 40.0)]);
+        target.penalty = 0.5;
+        let detections = [Detection { rect: state.into(), score: 0.8, ..Default::default() }];
+        let mut observations = Observations::default();
+        observations.prepare(&Frame::new(&detections), 0.0);
+        let cost = motion_part(&p, &target, observations.get(0), &SceneResidual::default()).unwrap();
+        // .7 * .1 + .1 * .2 + .1 * .5 = .14.
+        assert!((cost - 0.14).abs() < 1e-12, "{cost}");
+    }
+
+    #[test]
+    fn the_foot_term_tells_boxes_apart_whose_bottoms_differ() {
+        let p = GenTrack2Parameters::default();
+        let state = State::new(0.0, 0.0, 30.0, 40.0);
+        let target = target_at(state, &[state]);
+        // Same centre, 8 px taller: the foot differs by 4 px of 48.
+        let taller = State::new(0.0, 0.0, 30.0, 48.0);
+        let detections = [Detection { rect: taller.into(), score: 1.0, ..Default::default() }];
+        let mut observations = Observations::default();
+        observations.prepare(&Frame::new(&detections), 0.0);
+        let with = motion_part(&p, &target, observations.get(0), &SceneResidual::default()).unwrap();
+        let without = GenTrack2Parameters { lambda_foot: 0.0, ..p };
+        let without = motion_part(&without, &target, observations.get(0), &SceneResidual::default()).unwrap();
+        assert!((with - without - 0.2 * 4.0 / 48.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn gates_refuse_what_they_name() {
+        let p = GenTrack2Parameters::default();
+        let state = State::new(0.0, 0.0, 30.0, 40.0);
+        let mut target = target_at(state, &[state]);
+        let cost = |target: &Target, u: f64, score: f64| {
+            let rect = State::new(u, 0.0, 30.0, 40.0).into();
+            let mut observations = Observations::default();
+            observations.prepare(&Frame::new(&[Detection { rect, score, ..Default::default() }]), 0.0);
+            motion_part(&p, target, observations.get(0), &SceneResidual::default())
+        };
+        assert!(cost(&target, 2.0, 0.9).is_some());
+        // IoU below .1: 26 px apart leaves 4*40 / (2400 - 160) = .07.
+        assert!(cost(&target, 26.0, 0.9).is_none());
+        // A low score is admissible near by, not from where C_m exceeds .2: 12 px: IoU .4286, d/d_o = 12/24 (the scale
+        // is 6 * .08 = .48 diagonals): .2857.
+        assert!(cost(&target, 2.0, 0.3).is_some());
+        assert!(cost(&target, 12.0, 0.3).is_none());
+        assert!(cost(&target, 12.0, 0.9).is_some());
+        // A doubtful track needs a score.
+        target.missed = 4.0;
+        assert!(cost(&target, 2.0, 0.3).is_none());
+        assert!(cost(&target, 2.0, 0.5).is_some());
+        target.missed = 0.0;
+        target.confirmed = false;
+        assert!(cost(&target, 2.0, 0.3).is_none());
+    }
+
+    #[test]
+    fn confidence_orders_detections_that_lie_equally_well() {
+        let p = GenTrack2Parameters::default();
+        let state = State::new(0.0, 0.0, 30.0, 40.0);
+        let mut targets = [target_at(state, &[state])];
+        let at =
+            |u: f64, score: f64| Detection { rect: State::new(u, 0.0, 30.0, 40.0).into(), score, ..Default::default() };
+        let mut observations = Observations::default();
+        observations.prepare(&Frame::new(&[at(3.0, 0.7), at(-3.0, 0.9)]), 0.0);
+        let mut association = DataAssociation::default();
+        let mut sight = Sight { image: None, hog: &mut HogWorkspace::default() };
+        association.associate(&p, &mut targets, &mut observations, &SceneResidual::default(), &mut sight);
+        let row = targets[0].matched.index().map(|i| observations.get(i).row);
+        assert_eq!(row, Some(1));
+        assert_eq!(association.taken, [true, false]);
+    }
+
+    #[test]
+    fn without_an_overlap_gate_pairs_match_up_to_the_distance_scale() {
+        let p = GenTrack2Parameters { min_iou: 0.0, cost_gate: 1.0, distance_scale_min: 1.0, ..literal() };
+        let state = State::new(0.0, 0.0, 30.0, 40.0);
+        let mut association = DataAssociation::default();
+        let mut matched = |u: f64| {
+            let mut targets = [target_at(state, &[state])];
+            let mut observations = Observations::default();
+            let rect = State::new(u, 0.0, 30.0, 40.0).into();
+            observations.prepare(&Frame::new(&[Detection { rect, score: 0.9, ..Default::default() }]), 0.0);
+            let mut sight = Sight { image: None, hog: &mut HogWorkspace::default() };
+            association.associate(&p, &mut targets, &mut observations, &SceneResidual::default(), &mut sight);
+            targets[0].is_strong()
+        };
+        assert!(matched(45.0));
+        assert!(!matched(55.0));
+    }
+}

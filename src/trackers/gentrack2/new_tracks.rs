@@ -1,0 +1,106 @@
+//! New tracks: unmatched detections of enough confidence start a target (eq. 10).
+
+use crate::geometry::Rect;
+
+use super::observations::Observations;
+use super::parameters::GenTrack2Parameters;
+use super::target::Target;
+
+/// Decides which detections start a track.
+#[derive(Clone, Debug, Default)]
+pub struct Births {
+    // Boxes of tracks that have a detection in this frame, by their left edge.
+    claimed: Vec<Rect>,
+    widest: f64,
+    /// The observations that start a track, best score first.
+    pub chosen: Vec<u32>,
+}
+
+impl Births {
+    /// Chooses at most `room` of the detections that were not taken. A detection on top of a strong or new track is a
+    /// second look at the same object, not another one.
+    pub fn choose(
+        &mut self,
+        p: &GenTrack2Parameters,
+        targets: &[Target],
+        observations: &Observations,
+        taken: &[bool],
+        room: usize,
+    ) {
+        self.chosen.clear();
+        self.claimed.clear();
+        let strong = targets.iter().filter(|t| t.is_strong());
+        self.claimed.extend(strong.map(|t| Rect::from(t.state)));
+        self.claimed.sort_unstable_by(|a, b| a.left.total_cmp(&b.left));
+        self.widest = self.claimed.iter().map(|r| r.width).fold(0.0, f64::max);
+        let check = p.birth_iou < 1.0;
+        for index in (0..observations.len()).filter(|i| !taken[*i]) {
+            let detection = &observations.get(index).detection;
+            if detection.score < p.birth_score || self.chosen.len() >= room {
+                break;
+            }
+            if check && self.overlaps(&detection.rect, p.birth_iou) {
+                continue;
+            }
+            self.chosen.push(index as u32);
+            if check {
+                self.claim(detection.rect);
+            }
+        }
+    }
+
+    fn overlaps(&self, rect: &Rect, limit: f64) -> bool {
+        let from = self.claimed.partition_point(|c| c.left < rect.left - self.widest);
+        let near = self.claimed[from..].iter().take_while(|c| c.left < rect.right());
+        near.into_iter().any(|c| c.iou(rect) > limit)
+    }
+
+    fn claim(&mut self, rect: Rect) {
+        let at = self.claimed.partition_point(|c| c.left < rect.left);
+        self.claimed.insert(at, rect);
+        self.widest = self.widest.max(rect.width);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::{Detection, Frame};
+
+    fn chosen_rows(p: &GenTrack2Parameters, targets: &[Target], detections: &[Detection], room: usize) -> Vec<u32> {
+        let mut observations = Observations::default();
+        observations.prepare(&Frame::new(detections), 0.0);
+        let mut births = Births::default();
+        births.choose(p, targets, &observations, &vec![false; detections.len()], room);
+        births.chosen.iter().map(|i| observations.get(*i as usize).row).collect()
+    }
+
+    #[test]
+    fn equation_10_asks_for_confidence() {
+        let detections = [
+            Detection::new(0.0, 0.0, 10.0, 10.0, 0.69),
+            Detection::new(50.0, 0.0, 10.0, 10.0, 0.7),
+            Detection::new(90.0, 0.0, 10.0, 10.0, 0.95),
+        ];
+        let p = GenTrack2Parameters { birth_score: 0.7, ..Default::default() };
+        assert_eq!(chosen_rows(&p, &[], &detections, 10), [2, 1]);
+        assert_eq!(chosen_rows(&p, &[], &detections, 1), [2]);
+    }
+
+    #[test]
+    fn nothing_is_born_on_top_of_a_strong_or_new_track() {
+        let mut strong = Target::blank();
+        strong.begin(1, &Detection::new(100.0, 0.0, 10.0, 10.0, 0.9), 0, 0, 1);
+        let detections = [
+            // IoU with the strong track 90/110 = .82.
+            Detection::new(101.0, 0.0, 10.0, 10.0, 0.9),
+            // Two looks at one object.
+            Detection::new(0.0, 0.0, 10.0, 10.0, 0.8),
+            Detection::new(2.0, 0.0, 10.0, 10.0, 0.75),
+        ];
+        let p = GenTrack2Parameters { birth_iou: 0.5, ..Default::default() };
+        assert_eq!(chosen_rows(&p, &[strong.clone()], &detections, 10), [1]);
+        let off = GenTrack2Parameters { birth_iou: 1.0, ..Default::default() };
+        assert_eq!(chosen_rows(&off, &[strong], &detections, 10), [0, 1, 2]);
+    }
+}

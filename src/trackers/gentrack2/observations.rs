@@ -1,0 +1,154 @@
+//! The detections of one frame as the steps use them: the usable ones, in an order that does not depend on the
+//! caller's, with what they look like.
+
+use crate::appearance::{Descriptor, HogWorkspace};
+use crate::frame::{Detection, Embeddings, Frame};
+use crate::geometry::State;
+use crate::image::ImageView;
+
+/// One usable detection.
+#[derive(Clone, Debug)]
+pub struct Observed {
+    /// Row in the frame.
+    pub row: u32,
+    /// The detection.
+    pub detection: Detection,
+    /// Its box as a state.
+    pub state: State,
+    look: Look,
+}
+
+/// Whether a detection's descriptor is known.
+#[derive(Clone, Copy, Debug)]
+enum Look {
+    NotYet,
+    Unusable,
+    Seen,
+}
+
+/// The usable detections of a frame.
+#[derive(Clone, Debug, Default)]
+pub struct Observations {
+    list: Vec<Observed>,
+    // By index; valid where the look is `Seen`.
+    descriptors: Vec<Descriptor>,
+    // Unit embeddings by row of the frame; empty without.
+    embeddings: Vec<f32>,
+    dimension: usize,
+}
+
+impl Observations {
+    /// Takes the detections of at least `min_score` and with an area. The order is by score, then box, so that
+    /// permuting the caller's rows changes nothing.
+    pub fn prepare(&mut self, frame: &Frame<'_>, min_score: f64) {
+        self.list.clear();
+        let usable = |d: &Detection| d.score >= min_score && d.rect.area() > 0.0;
+        let rows = frame.detections.iter().enumerate().filter(|(_, d)| usable(d));
+        self.list.extend(rows.map(|(row, d)| Observed {
+            row: row as u32,
+            detection: *d,
+            state: State::from(d.rect),
+            look: Look::NotYet,
+        }));
+        self.list.sort_unstable_by(|a, b| {
+            let key = |o: &Observed| [-o.detection.score, o.state.u, o.state.v, o.state.w, o.state.h];
+            let boxes = key(a).iter().zip(&key(b)).map(|(x, y)| x.total_cmp(y)).find(|o| o.is_ne());
+            let rest = |o: &Observed| (o.detection.class_id, o.detection.tag, o.row);
+            boxes.unwrap_or_else(|| rest(a).cmp(&rest(b)))
+        });
+        self.normalise(frame.embeddings.as_ref(), frame.detections.len());
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.list.len()
+    }
+
+    /// Detection `index`.
+    pub fn get(&self, index: usize) -> &Observed {
+        &self.list[index]
+    }
+
+    /// The unit embedding of detection `index`; `None` without embeddings, or for a vector of zeros.
+    pub fn embedding(&self, index: usize) -> Option<&[f32]> {
+        let start = self.list[index].row as usize * self.dimension;
+        let row = self.embeddings.get(start..start + self.dimension)?;
+        row.iter().any(|x| *x != 0.0).then_some(row)
+    }
+
+    /// What detection `index` looks like, worked out when first asked for.
+    pub fn descriptor(
+        &mut self,
+        index: usize,
+        image: Option<&ImageView<'_>>,
+        hog: &mut HogWorkspace,
+    ) -> Option<&Descriptor> {
+        if self.descriptors.len() <= index {
+            self.descriptors.resize(self.list.len(), [0.0; _]);
+        }
+        let (observed, descriptor) = (&mut self.list[index], &mut self.descriptors[index]);
+        if let Look::NotYet = observed.look {
+            let rect = &observed.detection.rect;
+            let seen = image.is_some_and(|i| hog.prepare(i, rect, 1.0)) && hog.describe(rect, descriptor);
+            observed.look = if seen { Look::Seen } else { Look::Unusable };
+        }
+        matches!(observed.look, Look::Seen).then_some(&*descriptor)
+    }
+
+    fn normalise(&mut self, embeddings: Option<&Embeddings<'_>>, rows: usize) {
+        self.embeddings.clear();
+        self.dimension = embeddings.map_or(0, |e| e.dimension);
+        let Some(embeddings) = embeddings else { return };
+        for row in 0..rows {
+            let start = self.embeddings.len();
+            self.embeddings.extend_from_slice(embeddings.row(row));
+            to_unit(&mut self.embeddings[start..]);
+        }
+    }
+}
+
+/// Scales a vector to length 1; one too short to have a direction becomes zeros.
+pub fn to_unit(vector: &mut [f32]) {
+    let norm = vector.iter().map(|x| *x as f64 * *x as f64).sum::<f64>().sqrt();
+    let scale = if norm > 1e-20 { 1.0 / norm } else { 0.0 };
+    vector.iter_mut().for_each(|x| *x = (*x as f64 * scale) as f32);
+}
+
+/// Cosine of two unit vectors in `[-1, 1]`.
+pub fn unit_cosine(a: &[f32], b: &[f32]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| *x as f64 * *y as f64).sum::<f64>().clamp(-1.0, 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn unusable_detections_are_left_out_and_the_rest_is_in_a_fixed_order() {
+        let a = Detection::new(5.0, 0.0, 10.0, 10.0, 0.8);
+        let b = Detection::new(1.0, 0.0, 10.0, 10.0, 0.8);
+        let best = Detection::new(9.0, 0.0, 10.0, 10.0, 0.9);
+        let flat = Detection::new(9.0, 0.0, 10.0, 0.0, 0.9);
+        let weak = Detection::new(9.0, 0.0, 10.0, 10.0, 0.01);
+        let mut observations = Observations::default();
+        for (detections, rows) in [([a, flat, b, weak, best], [4, 2, 0]), ([best, weak, b, flat, a], [0, 2, 4])] {
+            observations.prepare(&Frame::new(&detections), 0.05);
+            let order: Vec<u32> = observations.list.iter().map(|o| o.row).collect();
+            assert_eq!(order, rows);
+        }
+    }
+
+    #[test]
+    fn embeddings_are_normalised_and_zeros_are_none() {
+        let detections = [Detection::new(0.0, 0.0, 10.0, 10.0, 0.5), Detection::new(0.0, 0.0, 10.0, 10.0, 0.9)];
+        let data = [0.0, 0.0, 3.0, 4.0];
+        let frame = Frame { embeddings: Some(Embeddings::new(&data, 2)), ..Frame::new(&detections) };
+        let mut observations = Observations::default();
+        observations.prepare(&frame, 0.0);
+        // The better scored detection, row 1, comes first.
+        assert_eq!(observations.embedding(0), Some(&[0.6f32, 0.8][..]));
+        assert_eq!(observations.embedding(1), None);
+        observations.prepare(&Frame::new(&detections), 0.0);
+        assert_eq!(observations.embedding(0), None);
+    }
+}

@@ -1,0 +1,89 @@
+//! Removal of expired tracks (eq. 15) and of those that have left.
+
+use super::parameters::GenTrack2Parameters;
+use super::target::Target;
+
+/// Largest size and coordinate of a state in pixels; beyond it a box means nothing and arithmetic loses its digits.
+const LARGEST: f64 = 1e13;
+
+/// Whether a target's life ends in this frame.
+pub fn is_expired(p: &GenTrack2Parameters, target: &Target, frame_size: Option<(u32, u32)>) -> bool {
+    let unconfirmed_miss = !target.confirmed && target.missed > 0.0;
+    // Eq. 15.
+    let aged = target.age >= p.max_age;
+    let missed = target.missed > p.max_missed;
+    let left = p.end_outside && !target.is_strong() && is_outside(target, frame_size);
+    unconfirmed_miss || aged || missed || left || !is_sane(target)
+}
+
+/// Whether the centre lies outside the frame.
+pub fn is_outside(target: &Target, frame_size: Option<(u32, u32)>) -> bool {
+    let (u, v) = (target.state.u, target.state.v);
+    frame_size.is_some_and(|(width, height)| u < 0.0 || v < 0.0 || u >= width as f64 || v >= height as f64)
+}
+
+fn is_sane(target: &Target) -> bool {
+    let s = &target.state;
+    let finite = [s.u, s.v, s.w, s.h].iter().all(|x| x.abs() <= LARGEST);
+    finite && s.w > 0.0 && s.h > 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::Detection;
+    use crate::trackers::gentrack2::target::Match;
+
+    fn weak(missed: f64) -> Target {
+        let mut target = Target::blank();
+        target.begin(1, &Detection::new(0.0, 0.0, 20.0, 20.0, 0.9), 0, 0, 1);
+        target.matched = Match::None;
+        target.confirmed = true;
+        target.missed = missed;
+        target
+    }
+
+    #[test]
+    fn equation_15_keeps_tracks_younger_than_the_maximum() {
+        let p = GenTrack2Parameters { max_age: 60.0, ..Default::default() };
+        let mut target = weak(5.0);
+        target.age = 59.9;
+        assert!(!is_expired(&p, &target, None));
+        target.age = 60.0;
+        assert!(is_expired(&p, &target, None));
+    }
+
+    #[test]
+    fn misses_end_tracks_at_the_limit_and_tentative_ones_at_once() {
+        let p = GenTrack2Parameters { max_missed: 30.0, ..Default::default() };
+        assert!(!is_expired(&p, &weak(30.0), None));
+        assert!(is_expired(&p, &weak(31.0), None));
+        let mut young = weak(1.0);
+        young.confirmed = false;
+        assert!(is_expired(&p, &young, None));
+        young.missed = 0.0;
+        assert!(!is_expired(&p, &young, None));
+    }
+
+    #[test]
+    fn weak_tracks_end_when_their_centre_leaves_the_image() {
+        let p = GenTrack2Parameters::default();
+        let mut target = weak(1.0);
+        target.state.u = -1.0;
+        assert!(is_expired(&p, &target, Some((100, 100))));
+        assert!(!is_expired(&p, &target, None));
+        // A detection says that it is still there.
+        target.matched = Match::Detection(0);
+        assert!(!is_expired(&p, &target, Some((100, 100))));
+    }
+
+    #[test]
+    fn states_that_mean_nothing_end() {
+        let p = GenTrack2Parameters::default();
+        for (u, w) in [(f64::NAN, 10.0), (1e14, 10.0), (0.0, 0.0), (0.0, f64::INFINITY)] {
+            let mut target = weak(1.0);
+            (target.state.u, target.state.w) = (u, w);
+            assert!(is_expired(&p, &target, None), "{u} {w}");
+        }
+    }
+}

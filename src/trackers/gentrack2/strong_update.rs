@@ -1,0 +1,109 @@
+//! Strong tracks: the state takes the matched detection (eq. 9).
+
+use crate::frame::Detection;
+use crate::geometry::State;
+
+use super::parameters::{GenTrack2Parameters, StrongUpdate};
+use super::target::Target;
+
+/// Matches that take the detection whole: before that there is no velocity, so nothing to blend with.
+const UNBLENDED_HITS: u32 = 2;
+
+/// Updates state, penalty, age and counters of a matched target.
+pub fn update(p: &GenTrack2Parameters, target: &mut Target, detection: &Detection) {
+    target.hits += 1;
+    target.state = updated_state(p, target, detection);
+    target.penalty = p.strong_penalty * (1.0 - detection.score);
+    target.age = 0.0;
+    target.missed = 0.0;
+    target.missed_frames = 0;
+    target.frames_since_match = 0;
+    target.last = *detection;
+    target.confirmed |= target.hits >= p.confirm_hits as u32;
+}
+
+fn updated_state(p: &GenTrack2Parameters, target: &Target, detection: &Detection) -> State {
+    let detected = State::from(detection.rect);
+    let jump = p.jump_distance * target.state.diagonal();
+    match p.strong_update {
+        StrongUpdate::Replace if target.previous.distance(&detected) >= jump => half_way(&target.previous, &detected),
+        StrongUpdate::Blend if target.predicted.distance(&detected) >= jump => half_way(&target.predicted, &detected),
+        StrongUpdate::Blend if target.hits > UNBLENDED_HITS => {
+            let (centre, size) = (p.blend_centre * detection.score, p.blend_size * detection.score);
+            let (from, error) = (target.predicted, detected - target.predicted);
+            State::new(
+                from.u + centre * error.u,
+                from.v + centre * error.v,
+                from.w + size * error.w,
+                from.h + size * error.h,
+            )
+        }
+        _ => detected,
+    }
+}
+
+/// A detection this far off is a glitch as likely as not.
+fn half_way(a: &State, b: &State) -> State {
+    (*a + *b) * 0.5
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 40 x 80 at (100, 100), predicted 10 px to the right, seen `hits` times.
+    fn target(hits: u32) -> Target {
+        let mut target = Target::blank();
+        target.begin(1, &Detection::new(80.0, 60.0, 40.0, 80.0, 0.9), 0, 0, 1);
+        target.predicted.u = 110.0;
+        target.hits = hits;
+        target.penalty = 0.7;
+        target.age = 12.0;
+        target.missed = 3.0;
+        target
+    }
+
+    fn detection(u: f64, w: f64, score: f64) -> Detection {
+        Detection { rect: State::new(u, 100.0, w, 80.0).into(), score, ..Default::default() }
+    }
+
+    #[test]
+    fn equation_9_literally() {
+        let p = GenTrack2Parameters {
+            strong_update: StrongUpdate::Replace,
+            strong_penalty: 0.0,
+            jump_distance: 0.5,
+            ..Default::default()
+        };
+        // Near (20 px, the limit is .5 * 89.4): the detection itself.
+        let mut near = target(9);
+        update(&p, &mut near, &detection(120.0, 44.0, 0.6));
+        assert_eq!(near.state, State::new(120.0, 100.0, 44.0, 80.0));
+        assert_eq!((near.penalty, near.age, near.missed, near.hits), (0.0, 0.0, 0.0, 10));
+        // Far (60 px from X_{t-1}): the mean of (100, ...) and (160, ...).
+        let mut far = target(9);
+        update(&p, &mut far, &detection(160.0, 40.0, 0.6));
+        assert_eq!(far.state, State::new(130.0, 100.0, 40.0, 80.0));
+    }
+
+    #[test]
+    fn the_blend_weighs_by_confidence() {
+        let p = GenTrack2Parameters { blend_centre: 0.7, blend_size: 0.6, strong_penalty: 0.3, ..Default::default() };
+        let mut target = target(9);
+        update(&p, &mut target, &detection(120.0, 50.0, 0.5));
+        // Centre: 110 + .35 * 10 = 113.5; width: 40 + .3 * 10 = 43; penalty: .3 * .5.
+        assert_eq!(target.state, State::new(113.5, 100.0, 43.0, 80.0));
+        assert_eq!(target.penalty, 0.15);
+    }
+
+    #[test]
+    fn young_tracks_take_the_detection_and_are_confirmed_by_hits() {
+        let p = GenTrack2Parameters { confirm_hits: 3, ..Default::default() };
+        let mut target = target(1);
+        update(&p, &mut target, &detection(120.0, 50.0, 0.5));
+        assert_eq!(target.state, State::new(120.0, 100.0, 50.0, 80.0));
+        assert!(!target.confirmed);
+        update(&p, &mut target, &detection(120.0, 50.0, 0.5));
+        assert!(target.confirmed);
+    }
+}

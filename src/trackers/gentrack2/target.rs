@@ -1,0 +1,188 @@
+//! One target: the tracklet `{K, X, V, X^pen, X^age}` of the paper and what is kept with it.
+
+use std::collections::VecDeque;
+
+use crate::appearance::Descriptor;
+use crate::frame::{CameraMotion, Detection};
+use crate::geometry::State;
+use crate::random::Random;
+
+use super::residual::Residual;
+
+/// A particle: a hypothesis of the target's state, `{X^s, V^s}`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Hypothesis {
+    /// State in pixels.
+    pub state: State,
+    /// Velocity in pixels per tick.
+    pub velocity: State,
+    /// Fitness (eq. 4) after the swarm optimisation.
+    pub fitness: f64,
+}
+
+/// A state that a detection confirmed, and when.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Observation {
+    /// Time in ticks.
+    pub time: f64,
+    /// The state after the update, in the coordinates of the current frame.
+    pub state: State,
+}
+
+/// What a track's detection of this frame was.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Match {
+    /// None.
+    #[default]
+    None,
+    /// The association gave it this one of the frame's [`super::observations::Observations`].
+    Detection(u32),
+    /// It was born from this one.
+    Birth(u32),
+}
+
+impl Match {
+    /// Index of the observation.
+    pub fn index(self) -> Option<usize> {
+        match self {
+            Match::None => None,
+            Match::Detection(index) | Match::Birth(index) => Some(index as usize),
+        }
+    }
+}
+
+/// A target.
+#[derive(Clone, Debug)]
+pub struct Target {
+    /// Identity `K`.
+    pub id: u64,
+    /// State `X_t`; during a step, until its update, `X_{t-1}` in this frame's coordinates.
+    pub state: State,
+    /// `X_{t-1}` in this frame's coordinates.
+    pub previous: State,
+    /// `X_{t-1} + V_{t-1}`.
+    pub predicted: State,
+    /// Velocity `V` in pixels per tick.
+    pub velocity: State,
+    /// Penalty `X^pen` in `[0, 1]`.
+    pub penalty: f64,
+    /// Age `X^age` in ticks.
+    pub age: f64,
+    /// Time without a match, the paper's `l`, in ticks.
+    pub missed: f64,
+    /// Frames without a match on which the detector ran.
+    pub missed_frames: u32,
+    /// Frames without a match.
+    pub frames_since_match: u32,
+    /// Detections taken.
+    pub hits: u32,
+    /// Frames since birth, the birth counted.
+    pub frames: u32,
+    /// Whether the track is trusted.
+    pub confirmed: bool,
+    /// Whether the track was reported in the last step.
+    pub reported: bool,
+    /// The detection of this frame.
+    pub matched: Match,
+    /// Score, class and tag of the detection last taken.
+    pub last: Detection,
+    /// Observed states, oldest first.
+    pub history: VecDeque<Observation>,
+    /// How well its motion is predicted.
+    pub residual: Residual,
+    /// The particles.
+    pub particles: Vec<Hypothesis>,
+    /// State of the swarm's global best, `X_g`.
+    pub global_best: State,
+    /// History fitness of the global best, `f_g,PSO^h`.
+    pub global_fitness: f64,
+    /// HOG vector learnt from strong updates; valid if `has_template`.
+    pub template: Box<Descriptor>,
+    /// Whether there is a template.
+    pub has_template: bool,
+    /// Unit embedding learnt from strong updates; empty without.
+    pub embedding: Vec<f32>,
+    /// Its own random numbers: they do not depend on the other targets.
+    pub random: Random,
+}
+
+impl Target {
+    /// An empty shell, to be filled by [`Target::begin`].
+    pub fn blank() -> Self {
+        Self {
+            id: 0,
+            state: State::default(),
+            previous: State::default(),
+            predicted: State::default(),
+            velocity: State::default(),
+            penalty: 0.0,
+            age: 0.0,
+            missed: 0.0,
+            missed_frames: 0,
+            frames_since_match: 0,
+            hits: 0,
+            frames: 0,
+            confirmed: false,
+            reported: false,
+            matched: Match::None,
+            last: Detection::default(),
+            history: VecDeque::new(),
+            residual: Residual::default(),
+            particles: Vec::new(),
+            global_best: State::default(),
+            global_fitness: 1.0,
+            template: Box::new([0.0; _]),
+            has_template: false,
+            embedding: Vec::new(),
+            random: Random::new(0, 0),
+        }
+    }
+
+    /// Starts a life at a detection, keeping the buffers of an earlier one.
+    pub fn begin(&mut self, id: u64, detection: &Detection, index: u32, seed: u64, particles: usize) {
+        let state = State::from(detection.rect);
+        self.id = id;
+        self.state = state;
+        self.previous = state;
+        self.predicted = state;
+        self.velocity = State::default();
+        self.penalty = 0.0;
+        self.age = 0.0;
+        self.missed = 0.0;
+        self.missed_frames = 0;
+        self.frames_since_match = 0;
+        self.hits = 1;
+        self.frames = 1;
+        self.confirmed = false;
+        self.reported = false;
+        self.matched = Match::Birth(index);
+        self.last = *detection;
+        self.history.clear();
+        self.residual = Residual::default();
+        self.particles.clear();
+        self.particles.resize(particles, Hypothesis { state, velocity: State::default(), fitness: 1.0 });
+        self.global_best = state;
+        self.global_fitness = 1.0;
+        self.has_template = false;
+        self.embedding.clear();
+        self.random = Random::new(seed, id);
+    }
+
+    /// Whether a detection was taken in this frame: a strong (or new) track.
+    pub fn is_strong(&self) -> bool {
+        self.matched != Match::None
+    }
+
+    /// Moves everything that is in image coordinates along with the camera.
+    pub fn follow_camera(&mut self, motion: &CameraMotion) {
+        self.state = motion.apply_state(&self.state);
+        self.velocity = motion.apply_velocity(&self.velocity);
+        for observation in &mut self.history {
+            observation.state = motion.apply_state(&observation.state);
+        }
+        for particle in &mut self.particles {
+            particle.state = motion.apply_state(&particle.state);
+            particle.velocity = motion.apply_velocity(&particle.velocity);
+        }
+    }
+}
