@@ -16,9 +16,6 @@ pub type Descriptor = [f32; DESCRIPTOR_LEN];
 /// The descriptor of a box without texture.
 pub const EMPTY: Descriptor = [0.0; DESCRIPTOR_LEN];
 
-/// Sums run in this many lanes in a fixed order: they vectorise, and every machine computes the same bits.
-const LANES: usize = 16;
-
 /// Cosine similarity of two unit-norm descriptors (`f_s` of the paper's eq. 5) in `[0, 1]`; 0 when either is
 /// [`EMPTY`].
 pub fn cosine(a: &Descriptor, b: &Descriptor) -> f32 {
@@ -46,18 +43,20 @@ pub(super) fn normalize(descriptor: &mut Descriptor) {
     }
 }
 
+/// The sum of products. Flat loops that vectorise, in an order that does not depend on the machine.
 fn dot(a: &Descriptor, b: &Descriptor) -> f32 {
+    const LANES: usize = DESCRIPTOR_LEN / 8;
     let mut sums = [0.0f32; LANES];
-    for (a, b) in a.chunks_exact(LANES).zip(b.chunks_exact(LANES)) {
-        for lane in 0..LANES {
-            sums[lane] += a[lane] * b[lane];
-        }
+    for i in 0..LANES {
+        let product = |part: usize| a[i + part * LANES] * b[i + part * LANES];
+        let low = (product(0) + product(1)) + (product(2) + product(3));
+        let high = (product(4) + product(5)) + (product(6) + product(7));
+        sums[i] = low + high;
     }
     let mut width = LANES / 2;
     while width > 0 {
-        for lane in 0..width {
-            sums[lane] += sums[lane + width];
-        }
+        let (left, right) = sums.split_at_mut(width);
+        left.iter_mut().zip(right).for_each(|(l, r)| *l += *r);
         width /= 2;
     }
     sums[0]

@@ -13,8 +13,8 @@ pub const BINS: usize = 8;
 /// A vote counts gray levels in whole numbers; the products below count in 1/32.
 const FRACTION_BITS: u32 = 5;
 
-/// Votes saturate here, so that a cell of 256 samples still sums to less than 65536.
-const MAX_VOTE: u16 = 255;
+/// No vote is larger: `255 * sqrt(2)` and what the rounding of the directions adds.
+pub const MAX_VOTE: u16 = 366;
 
 /// `32 * cos(22.5 degrees * b) / sin(22.5 degrees)`, rounded; a quarter turn (4 bins) on is the sine's negative. The
 /// largest product is `84 * 255 * sqrt(2) < 32767`.
@@ -28,31 +28,51 @@ const fn scaled_cosine(b: usize) -> i16 {
     }
 }
 
-/// Directions of the bins, each moved on by `shift` bins: (cosines, sines).
-const fn directions(shift: usize) -> ([i16; BINS], [i16; BINS]) {
-    let (mut cos, mut sin) = ([0; BINS], [0; BINS]);
-    let mut b = 0;
-    while b < BINS {
-        cos[b] = scaled_cosine(b + shift);
-        sin[b] = scaled_cosine(b + shift + 12);
-        b += 1;
-    }
-    (cos, sin)
+/// Directions of the neighbours of every bin, scaled.
+#[derive(Clone, Copy, Debug)]
+pub struct Directions {
+    next_cosine: [i16; BINS],
+    next_sine: [i16; BINS],
+    previous_cosine: [i16; BINS],
+    previous_sine: [i16; BINS],
 }
 
-const NEXT: ([i16; BINS], [i16; BINS]) = directions(1);
-const PREVIOUS: ([i16; BINS], [i16; BINS]) = directions(2 * BINS - 1);
+const DIRECTIONS: Directions = Directions {
+    next_cosine: scaled_cosines(1),
+    next_sine: scaled_cosines(1 + 12),
+    previous_cosine: scaled_cosines(15),
+    previous_sine: scaled_cosines(15 + 12),
+};
 
-/// Votes of the gradient `(gx, gy)`, each component in `-255..=255`, in gray levels.
-#[inline(always)]
-pub fn votes(gx: i16, gy: i16) -> [u16; BINS] {
+impl Directions {
+    /// The table, hidden from constant folding: a compiler that sees the zeros and powers of two in it replaces those
+    /// products by other operations, and then no longer recognises eight equal lanes.
+    pub fn opaque() -> Self {
+        std::hint::black_box(DIRECTIONS)
+    }
+
+    /// Votes of the gradient `(gx, gy)`, each component in `-255..=255`, in gray levels: at most
+    /// [`MAX_VOTE`].
+    #[inline(always)]
+    pub fn votes(&self, gx: i16, gy: i16) -> [u16; BINS] {
+        let mut out = [0; BINS];
+        for b in 0..BINS {
+            let from_previous =
+                self.previous_cosine[b].wrapping_mul(gy).wrapping_sub(self.previous_sine[b].wrapping_mul(gx));
+            let to_next = self.next_sine[b].wrapping_mul(gx).wrapping_sub(self.next_cosine[b].wrapping_mul(gy));
+            let inside = from_previous.min(to_next).max(0i16.wrapping_sub(from_previous.max(to_next))).max(0);
+            out[b] = (inside.wrapping_add(1 << (FRACTION_BITS - 1)) >> FRACTION_BITS) as u16;
+        }
+        out
+    }
+}
+
+const fn scaled_cosines(shift: usize) -> [i16; BINS] {
     let mut out = [0; BINS];
-    for b in 0..BINS {
-        let from_previous = PREVIOUS.0[b].wrapping_mul(gy).wrapping_sub(PREVIOUS.1[b].wrapping_mul(gx));
-        let to_next = NEXT.1[b].wrapping_mul(gx).wrapping_sub(NEXT.0[b].wrapping_mul(gy));
-        let inside = from_previous.min(to_next).max(-from_previous.max(to_next)).max(0);
-        let rounded = (inside + (1 << (FRACTION_BITS - 1))) >> FRACTION_BITS;
-        out[b] = rounded.min(MAX_VOTE as i16) as u16;
+    let mut b = 0;
+    while b < BINS {
+        out[b] = scaled_cosine(b + shift);
+        b += 1;
     }
     out
 }
@@ -60,6 +80,10 @@ pub fn votes(gx: i16, gy: i16) -> [u16; BINS] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn votes(gx: i16, gy: i16) -> [u16; BINS] {
+        DIRECTIONS.votes(gx, gy)
+    }
 
     #[test]
     fn a_gradient_along_a_bin_votes_for_it_alone() {
@@ -78,8 +102,8 @@ mod tests {
     #[test]
     fn votes_rebuild_the_gradient() {
         // Independent check in floating point: the two votes times their directions are g or -g again.
-        for gx in (-170..=170).step_by(5) {
-            for gy in (-170..=170).step_by(5) {
+        for gx in (-255i16..=255).step_by(5) {
+            for gy in (-255i16..=255).step_by(5) {
                 let v = votes(gx, gy);
                 let (mut x, mut y) = (0.0, 0.0);
                 for (b, &vote) in v.iter().enumerate() {
@@ -89,8 +113,8 @@ mod tests {
                     y += sign * f64::from(vote) * angle.sin();
                 }
                 let error = (x - f64::from(gx)).abs().max((y - f64::from(gy)).abs());
-                assert!(error <= 3.0, "({gx}, {gy}) -> {v:?}: off by {error}");
-                assert!(v.iter().filter(|&&vote| vote > 3).count() <= 2, "({gx}, {gy}) -> {v:?}");
+                assert!(error <= 5.0, "({gx}, {gy}) -> {v:?}: off by {error}");
+                assert!(v.iter().filter(|&&vote| vote > 5).count() <= 2, "({gx}, {gy}) -> {v:?}");
             }
         }
     }
@@ -105,11 +129,11 @@ mod tests {
     }
 
     #[test]
-    fn the_strongest_gradients_saturate_without_overflow() {
+    fn the_strongest_gradients_do_not_overflow() {
         for gx in -255..=255 {
             for gy in [-255, 255] {
                 let v = votes(gx, gy);
-                assert!(v.iter().all(|&vote| vote <= MAX_VOTE));
+                assert!(v.iter().all(|&vote| vote <= MAX_VOTE), "({gx}, {gy}) -> {v:?}");
                 assert!(v.iter().sum::<u16>() >= 250, "({gx}, {gy}) -> {v:?}");
             }
         }
