@@ -237,8 +237,7 @@ impl Placement {
         if !is_large_enough(reference) {
             return None;
         }
-        // `max` turns NaN into 1.
-        let margin = margin.max(1.0).min(MAX_MARGIN);
+        let margin = if margin.is_nan() { 1.0 } else { margin.clamp(1.0, MAX_MARGIN) };
         Some(Self {
             horizontal: Axis::new(reference.left, reference.width, REFERENCE_X, margin, image.width())?,
             vertical: Axis::new(reference.top, reference.height, REFERENCE_Y, margin, image.height())?,

@@ -54,6 +54,7 @@ impl Directions {
     /// Votes of the gradient `(gx, gy)`, each component in `-255..=255`, in gray levels: at most
     /// [`MAX_VOTE`].
     #[inline(always)]
+    #[allow(clippy::needless_range_loop, reason = "six arrays in step: eight equal lanes for the vectoriser")]
     pub fn votes(&self, gx: i16, gy: i16) -> [u16; BINS] {
         let mut out = [0; BINS];
         for b in 0..BINS {
