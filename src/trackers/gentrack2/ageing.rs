@@ -13,7 +13,7 @@ use super::target::Target;
 /// Ages a weak track by `ticks`. `beside_strong` says that a neighbour has a detection in this frame.
 pub fn age(p: &GenTrack2Parameters, target: &mut Target, beside_strong: bool, ticks: f64) {
     let entrance = entrance_penalty(p, target);
-    let fitness = target.global_fitness;
+    let fitness = target.global_fitness.max(p.fitness_floor);
     let can_recover = p.recovery_threshold < 1.0 && target.has_template && beside_strong;
     let trust = if can_recover { sign(p.recovery_threshold - fitness + entrance) } else { 1.0 };
     let step = trust * growth(p, target.missed) * (1.0 - fitness + entrance) * ticks;
@@ -53,7 +53,7 @@ mod tests {
     }
 
     fn parameters() -> GenTrack2Parameters {
-        GenTrack2Parameters { max_age: 60.0, recovery_threshold: 0.8, ..Default::default() }
+        GenTrack2Parameters { max_age: 60.0, recovery_threshold: 0.8, fitness_floor: 0.0, ..Default::default() }
     }
 
     #[test]
@@ -84,6 +84,15 @@ mod tests {
             age(&parameters(), &mut target, beside, 1.0);
             assert!(target.penalty > 0.0);
         }
+    }
+
+    #[test]
+    fn looking_like_what_hides_it_does_not_end_a_track_sooner() {
+        // f = .2 counts as .9: .393469 * .1.
+        let p = GenTrack2Parameters { fitness_floor: 0.9, ..parameters() };
+        let mut target = weak(0.2, 10.0);
+        age(&p, &mut target, false, 1.0);
+        assert!((target.penalty - 0.039_346_934_029).abs() < 1e-9);
     }
 
     #[test]

@@ -135,7 +135,7 @@ parameters! {
         /// Weight of HOG dissimilarity in the association cost; 0 keeps appearance to the swarm, the paper's text.
         hog_cost: f64 = 0.4, [0.0, 2.0], "", "";
         /// Added to `cost_gate` where HOG takes part in the cost.
-        hog_gate: f64 = 0.2, [0.0, 2.0], "", "";
+        hog_gate: f64 = 0.3, [0.0, 2.0], "", "";
         /// Weight of embedding dissimilarity, `(1 - cosine)/2`, in the association cost.
         embedding_cost: f64 = 0.5, [0.0, 2.0], "", "";
         /// Added to `cost_gate` where embeddings take part in the cost.
@@ -216,6 +216,9 @@ parameters! {
         max_age: f64 = 100.0, [1.0, 1e6], "ticks", "partial_max";
         /// History fitness of the global best where there is no image to tell.
         blind_fitness: f64 = 0.9, [0.0, 1.0], "", "f_g,PSO^h";
+        /// Least history fitness that ageing reckons with where there is an image: a hidden target looks like what
+        /// hides it, which is no reason to end it sooner. 0 is the paper's text.
+        fitness_floor: f64 = 0.9, [0.0, 1.0], "", "";
         /// History fitness from which a weak track beside a strong one recovers instead of ageing; 1 turns
         /// recovery off. Needs an image.
         recovery_threshold: f64 = 1.0, [0.0, 1.0], "", "rho_re";
@@ -284,6 +287,7 @@ impl GenTrack2Parameters {
                 weak_motion: WeakMotion::Neighbours,
                 delta_d: 0.9,
                 sigma_g: 0.3,
+                fitness_floor: 0.0,
                 epsilon_s: 0.05,
                 recovery_threshold: 0.8,
                 history: 10,
