@@ -129,7 +129,7 @@ parameters! {
         // Appearance.
         /// Cosine similarity of HOG vectors that counts as no similarity: they are non-negative, so cosines crowd
         /// near 1. 0 is the raw cosine.
-        hog_offset: f64 = 0.45, [0.0, 0.95], "", "";
+        hog_offset: f64 = 0.3, [0.0, 0.95], "", "";
         /// Share of the old template when a strong track learns its new appearance.
         template_momentum: f64 = 0.9, [0.0, 1.0], "", "";
         /// Weight of HOG dissimilarity in the association cost; 0 keeps appearance to the swarm, the paper's text.
