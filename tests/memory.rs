@@ -1,0 +1,120 @@
+//! Memory is bounded: nothing about an ended track is kept. Counted by the allocator itself, hence a test binary of
+//! its own with a single test.
+
+// A global allocator cannot be written without.
+#![allow(unsafe_code)]
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::atomic::{AtomicI64, AtomicU64, Ordering::Relaxed};
+
+use gentrack2::{Config, Detection, Embeddings, Frame, ImageView, PixelFormat, Tracker};
+
+static LIVE_BYTES: AtomicI64 = AtomicI64::new(0);
+static ALLOCATIONS: AtomicU64 = AtomicU64::new(0);
+
+struct Counting;
+
+// SAFETY: every call is passed on unchanged to the system's allocator, which keeps the contract.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        LIVE_BYTES.fetch_add(layout.size() as i64, Relaxed);
+        ALLOCATIONS.fetch_add(1, Relaxed);
+        // SAFETY: the caller keeps `alloc`'s contract.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        LIVE_BYTES.fetch_sub(layout.size() as i64, Relaxed);
+        // SAFETY: the pointer came from `alloc` with this layout, and so from the system's allocator.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+const WIDTH: u32 = 320;
+const HEIGHT: u32 = 240;
+/// Frames after which the same input comes again.
+const PERIOD: usize = 500;
+const DIMENSION: usize = 16;
+
+/// A generator of pseudo-random numbers in `[0, 1)`.
+fn noise(seed: usize) -> f64 {
+    let mixed = (seed as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    let mixed = (mixed ^ (mixed >> 31)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    (mixed >> 40) as f64 / (1u64 << 24) as f64
+}
+
+/// Walkers that come in on the left every 20 frames, in six lanes, cross the image in 100 frames and are missed now
+/// and then, and one short-lived false detection in four frames.
+fn fill_detections(frame: usize, detections: &mut Vec<Detection>) {
+    detections.clear();
+    for walker in 0..25 {
+        let age = (frame + PERIOD - 20 * walker) % PERIOD;
+        if age < 100 && noise(31 * frame + walker) > 0.1 {
+            let left = -10.0 + 3.3 * age as f64 + noise(frame + 7 * walker);
+            let top = 10.0 + 33.0 * (walker % 6) as f64;
+            detections.push(Detection::new(left, top, 16.0, 40.0, 0.7 + 0.2 * noise(frame + walker)));
+        }
+    }
+    if frame.is_multiple_of(4) {
+        let (left, top) = (300.0 * noise(frame), 200.0 * noise(frame + 1));
+        detections.push(Detection::new(left, top, 16.0, 40.0, 0.75));
+    }
+}
+
+struct Readings {
+    /// Live bytes after the frames asked for.
+    live: Vec<i64>,
+    /// Allocations in `step` per frame between the last two of these frames.
+    allocations_per_step: f64,
+    /// Identities given out.
+    identities: u64,
+}
+
+/// Runs up to the last of `marks`, with images and embeddings or without.
+fn run(rich: bool, marks: &[usize]) -> Readings {
+    let texture: Vec<u8> = (0..(WIDTH * HEIGHT) as usize).map(|i| (255.0 * noise(i / 5)) as u8).collect();
+    let embeddings: Vec<f32> = (0..64 * DIMENSION).map(|i| noise(i) as f32 - 0.5).collect();
+    let mut detections = Vec::with_capacity(64);
+    let mut live = Vec::with_capacity(marks.len());
+    let mut tracker = Tracker::new(&Config::new("gentrack2").unwrap()).unwrap();
+    let (mut allocations, mut last_mark, mut identities) = (0, 0, 0);
+    for frame in 0..=*marks.last().unwrap() {
+        fill_detections(frame % PERIOD, &mut detections);
+        let mut input = Frame { size: Some((WIDTH, HEIGHT)), ..Frame::new(&detections) };
+        if rich {
+            input.image = Some(ImageView::new(&texture, WIDTH, HEIGHT, 0, PixelFormat::Gray8).unwrap());
+            input.embeddings = Some(Embeddings::new(&embeddings, DIMENSION));
+        }
+        let before = ALLOCATIONS.load(Relaxed);
+        let output = tracker.step(&input).unwrap();
+        allocations += ALLOCATIONS.load(Relaxed) - before;
+        identities = output.reported.iter().map(|t| t.id).fold(identities, u64::max);
+        if marks.contains(&frame) {
+            live.push(LIVE_BYTES.load(Relaxed));
+            if live.len() < marks.len() {
+                (allocations, last_mark) = (0, frame);
+            }
+        }
+    }
+    let steps = marks.last().unwrap() - last_mark;
+    Readings { live, allocations_per_step: allocations as f64 / steps as f64, identities }
+}
+
+#[test]
+fn live_bytes_do_not_grow_with_the_number_of_ended_tracks() {
+    // Marks at the same point of the input's period, so that as many walkers are in the image.
+    for (rich, marks) in [(false, [5_000, 10_000, 20_000]), (true, [500, 1_000, 2_000])] {
+        let readings = run(rich, &marks);
+        println!(
+            "with images and embeddings: {rich}; live bytes {:?} after {marks:?} frames, {} identities, {} allocations per step",
+            readings.live, readings.identities, readings.allocations_per_step
+        );
+        // A walker comes every 20 frames.
+        assert!(readings.identities as usize >= marks[2] / 20, "only {} identities", readings.identities);
+        let growth = readings.live[2] - readings.live[0];
+        assert!(growth <= 0, "{growth} bytes more after {marks:?} frames: {:?}", readings.live);
+    }
+}

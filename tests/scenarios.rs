@@ -1,0 +1,280 @@
+//! Scenes in which every identity must last, with appearance (the image is given) and without, always with the default
+//! parameters. `simulator::verdict` says what "last" means: one identity per object over its whole life, never shared,
+//! shown where the object is, and nothing shown where there is none.
+
+mod simulator;
+
+use std::collections::BTreeSet;
+
+use gentrack2::{Config, Detection, Frame, Track, TrackState};
+use simulator::contract::{Contract, all_tracks};
+use simulator::driver::{Feed, tracker};
+use simulator::scene::Scene;
+use simulator::stage;
+use simulator::verdict::{Verdict, demand_identities, judge};
+
+const SEEDS: std::ops::Range<u64> = 0..10;
+/// Images take time.
+const IMAGE_SEEDS: std::ops::Range<u64> = 0..6;
+
+/// A test of a scene without and one with the image.
+macro_rules! scenario {
+    ($name:ident, $scene:expr) => {
+        mod $name {
+            use super::*;
+
+            #[test]
+            fn by_motion_alone() {
+                demand_identities(SEEDS, Feed::default(), $scene);
+            }
+
+            #[test]
+            fn with_appearance() {
+                demand_identities(IMAGE_SEEDS, Feed::with_image(true), $scene);
+            }
+        }
+    };
+}
+
+scenario!(crossing_at_90_degrees, |seed| stage::crossing(seed, 90.0));
+scenario!(crossing_at_15_degrees, |seed| stage::crossing(seed, 15.0));
+scenario!(full_occlusion_of_one_second, |seed| stage::full_occlusion(seed, 1.0));
+scenario!(side_by_side_while_one_is_undetected, |seed| stage::side_by_side(seed, 0.8));
+scenario!(turn_while_hidden, stage::turn_while_hidden);
+scenario!(entering_and_leaving, stage::entering_and_leaving);
+scenario!(ten_targets_with_thirty_percent_misses, |seed| stage::ten_targets(seed, 0.3));
+
+mod moving_camera {
+    use super::*;
+
+    fn demand(seeds: std::ops::Range<u64>, image: bool, camera_motion: bool) {
+        let camera = if camera_motion { stage::SHAKE } else { stage::SLOW_PAN };
+        demand_identities(seeds, Feed { image, camera_motion, ..Feed::default() }, |s| stage::moving_camera(s, camera));
+    }
+
+    #[test]
+    fn shaking_with_its_motion_given() {
+        demand(SEEDS, false, true);
+    }
+
+    #[test]
+    fn shaking_with_its_motion_given_and_appearance() {
+        demand(IMAGE_SEEDS, true, true);
+    }
+
+    #[test]
+    fn panning_slowly_without_its_motion_given() {
+        demand(SEEDS, false, false);
+    }
+
+    #[test]
+    fn panning_slowly_without_its_motion_given_and_appearance() {
+        demand(IMAGE_SEEDS, true, false);
+    }
+}
+
+mod frame_rates {
+    use super::*;
+
+    fn at_ten_frames_per_second(scene: Scene) -> Scene {
+        Scene { frames_per_second: 10.0, ..scene }
+    }
+
+    #[test]
+    fn ten_frames_per_second_with_timestamps() {
+        let feed = Feed { timestamps: true, ..Feed::default() };
+        demand_identities(SEEDS, feed, |s| at_ten_frames_per_second(stage::crossing(s, 90.0)));
+        demand_identities(SEEDS, feed, |s| at_ten_frames_per_second(stage::crossing(s, 15.0)));
+        demand_identities(SEEDS, feed, |s| at_ten_frames_per_second(stage::side_by_side(s, 0.8)));
+    }
+
+    #[test]
+    fn ten_frames_per_second_with_timestamps_and_appearance() {
+        let feed = Feed { timestamps: true, ..Feed::with_image(true) };
+        demand_identities(IMAGE_SEEDS, feed, |s| at_ten_frames_per_second(stage::crossing(s, 90.0)));
+    }
+
+    #[test]
+    fn timestamps_at_the_nominal_rate_keep_identities() {
+        let feed = Feed { timestamps: true, ..Feed::default() };
+        demand_identities(SEEDS, feed, |s| stage::crossing(s, 90.0));
+    }
+}
+
+mod skipped_detector {
+    use super::*;
+
+    const FEED: Feed = Feed { image: false, camera_motion: false, timestamps: false, detect_every: 3, seed: 0 };
+
+    #[test]
+    fn on_two_frames_of_three_identities_last() {
+        demand_identities(SEEDS, FEED, |s| stage::crossing(s, 90.0));
+        demand_identities(SEEDS, FEED, |s| stage::side_by_side(s, 0.6));
+        demand_identities(IMAGE_SEEDS, Feed { image: true, ..FEED }, |s| stage::crossing(s, 90.0));
+    }
+
+    /// Walkers far apart, each detected whenever the detector runs, with the tracks shown in each frame.
+    fn play_in_the_open(skipped: impl Fn(usize) -> bool) -> Vec<Vec<Track>> {
+        let mut tracker = tracker(0);
+        (0..60)
+            .map(|frame| {
+                let x = 50.0 + 3.0 * frame as f64;
+                let detections = [(x, 50.0), (x, 300.0)].map(|(x, y)| Detection::new(x, y, 40.0, 100.0, 0.9));
+                let frame = if skipped(frame) { Frame::skipped() } else { Frame::new(&detections) };
+                tracker.step(&frame).unwrap().reported.clone()
+            })
+            .collect()
+    }
+
+    #[test]
+    fn tracks_are_shown_and_trusted_where_the_detector_should_see_them() {
+        // The detector runs on every third frame, then pauses for 15 frames.
+        let skipped = |frame: usize| (31..=45).contains(&frame) || !frame.is_multiple_of(3);
+        for (frame, tracks) in play_in_the_open(skipped).iter().enumerate() {
+            assert_eq!(tracks.iter().map(|t| t.id).collect::<BTreeSet<_>>(), BTreeSet::from([1, 2]), "frame {frame}");
+            for track in tracks {
+                assert_eq!(track.state, TrackState::Confirmed, "frame {frame}: {track:?}");
+                let wide =
+                    track.rect.iou(&gentrack2::Rect::new(50.0 + 3.0 * frame as f64, track.rect.top, 40.0, 100.0));
+                assert!(frame < 12 || wide > 0.75, "frame {frame}: IoU {wide} of {track:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_frame_without_detections_is_a_miss_unlike_a_skipped_one() {
+        let mut tracker = tracker(0);
+        let detections = [Detection::new(100.0, 100.0, 40.0, 100.0, 0.9)];
+        for _ in 0..20 {
+            tracker.step(&Frame::new(&detections)).unwrap();
+        }
+        assert_eq!(tracker.step(&Frame::skipped()).unwrap().reported[0].state, TrackState::Confirmed);
+        let output = tracker.step(&Frame::new(&[])).unwrap();
+        let tracks: Vec<&Track> = all_tracks(output).collect();
+        assert_eq!((tracks.len(), tracks[0].state, tracks[0].frames_since_match), (1, TrackState::Lost, 2));
+    }
+}
+
+/// What comes back on tracks besides their box.
+mod bookkeeping {
+    use super::*;
+
+    #[test]
+    fn class_tag_and_row_of_the_detection_come_back() {
+        // `Contract` compares them with the detection taken; here they differ from row to row and change in time.
+        let mut tracker = tracker(0);
+        let mut contract = Contract::default();
+        for frame in 0..30u64 {
+            let mut detections: Vec<Detection> = (0..5)
+                .map(|i| Detection {
+                    class_id: 10 * i as i32 - 7,
+                    tag: u64::MAX - 100 * frame - i,
+                    ..Detection::new(40.0 + 100.0 * i as f64, 50.0 + frame as f64, 40.0, 100.0, 0.8 + 0.01 * i as f64)
+                })
+                .collect();
+            detections.rotate_left(frame as usize % 5);
+            let output = tracker.step(&Frame::new(&detections)).unwrap();
+            contract.check(&detections, output);
+            if frame >= 3 {
+                assert_eq!(output.reported.len(), 5);
+                assert!(output.reported.iter().all(|t| t.detection_index.is_some() && t.frames_since_match == 0));
+                assert_eq!(output.reported.iter().map(|t| t.class_id).collect::<BTreeSet<_>>().len(), 5);
+                assert!(output.reported.iter().all(|t| t.age == frame as u32 + 1 && t.hits == t.age));
+            }
+        }
+    }
+
+    #[test]
+    fn a_lost_track_is_listed_where_it_is_predicted_until_it_ends_once() {
+        let config = Config::new("gentrack2").unwrap();
+        let number = |key: &str| config.get(key).unwrap().to_string().parse::<f64>().unwrap();
+        let (missed, coast) = (number("max_missed") as usize, number("coast") as usize);
+        let mut tracker = tracker(0);
+        let mut contract = Contract::default();
+        let at =
+            |frame: usize| gentrack2::Rect::new(100.0 + 3.0 * frame as f64, 200.0 - 1.0 * frame as f64, 40.0, 100.0);
+        let mut end = None;
+        for frame in 0..200 {
+            let r = at(frame);
+            let detections: Vec<Detection> =
+                (frame < 40).then(|| Detection::new(r.left, r.top, r.width, r.height, 0.9)).into_iter().collect();
+            let output = tracker.step(&Frame { size: Some((768, 576)), ..Frame::new(&detections) }).unwrap();
+            contract.check(&detections, output);
+            let tracks: Vec<&Track> = all_tracks(output).collect();
+            if frame < 40 {
+                continue;
+            }
+            match tracks[..] {
+                [track] => {
+                    assert!(end.is_none());
+                    assert_eq!((track.id, track.frames_since_match as usize), (1, frame - 39));
+                    assert!(track.rect.iou(&at(frame)) > 0.6, "frame {frame}: {:?}, true {:?}", track.rect, at(frame));
+                    if track.frames_since_match as usize > coast {
+                        assert_eq!(output.lost.len(), 1, "frame {frame}: shown for longer than it may coast");
+                    }
+                }
+                [] => end = end.or(Some(frame)),
+                _ => panic!("{tracks:?}"),
+            }
+        }
+        // The last match was in frame 39.
+        let lived = end.expect("it ends") - 39;
+        assert!(lived <= missed + 1 && lived >= missed / 2, "ended {lived} frames after its last match");
+        assert_eq!(contract.ended().iter().copied().collect::<Vec<_>>(), [1]);
+    }
+
+    #[test]
+    fn those_who_left_end_and_are_not_shown_as_ghosts() {
+        let config = Config::new("gentrack2").unwrap();
+        let coast: f64 = config.get("coast").unwrap().to_string().parse().unwrap();
+        for seed in SEEDS {
+            let scene = stage::entering_and_leaving(seed);
+            let mut tracker = tracker(seed);
+            let mut verdict = Verdict::new(&scene);
+            for seen in scene.play(false) {
+                let output = Feed::default().step(&mut tracker, &scene, &seen).unwrap();
+                verdict.watch(&seen, true, output);
+                for track in &output.reported {
+                    assert!(track.frames_since_match as f64 <= coast, "seed {seed}, frame {}: {track:?}", seen.frame);
+                }
+            }
+            // All have left seconds before the end of the scene.
+            assert!(verdict.contract.live().is_empty(), "seed {seed}: {:?} live on", verdict.contract.live());
+            let shown: BTreeSet<u64> = (0..scene.objects.len()).map(|o| verdict.identity(o)).collect();
+            assert_eq!(shown.len(), 9, "seed {seed}");
+            assert!(shown.is_subset(verdict.contract.ended()), "seed {seed}");
+        }
+    }
+
+    #[test]
+    fn frames_without_detections_are_normal() {
+        let mut tracker = tracker(0);
+        for frame in
+            [Frame::new(&[]), Frame::skipped(), Frame::new(&[]), Frame { size: Some((640, 480)), ..Frame::new(&[]) }]
+        {
+            let output = tracker.step(&frame).unwrap();
+            assert_eq!(all_tracks(output).count() + output.ended.len() + output.track_of_detection.len(), 0);
+        }
+        let detections = [Detection::new(10.0, 10.0, 40.0, 100.0, 0.9)];
+        for _ in 0..5 {
+            tracker.step(&Frame::new(&detections)).unwrap();
+        }
+        assert_eq!(tracker.output().reported.len(), 1);
+    }
+}
+
+#[test]
+fn a_different_seed_keeps_the_identities() {
+    for image in [false, true] {
+        let scene = stage::crossing(1, 90.0);
+        let identities = |seed: u64| {
+            let verdict = judge(&scene, Feed { seed, ..Feed::with_image(image) });
+            assert_eq!(verdict.complaints(), Vec::<String>::new(), "tracker seed {seed}");
+            [verdict.identity(0), verdict.identity(1)]
+        };
+        let first = identities(0);
+        for seed in [1, 2, 3, 1 << 40] {
+            assert_eq!(identities(seed), first, "tracker seed {seed}");
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! The simulator itself: its scenes contain the events they are named after, its images show what its truth says and
+//! its detector is as noisy as stated.
+
+mod simulator;
+
+use simulator::camera::Camera;
+use simulator::detector::Detector;
+use simulator::path::Path;
+use simulator::scene::{Object, Scene, Truth};
+use simulator::stage;
+
+const SEEDS: std::ops::Range<u64> = 0..10;
+
+/// The truths of one object, frame by frame.
+fn truths(scene: &Scene, object: usize) -> Vec<Truth> {
+    scene.play(false).filter_map(|s| s.truth.into_iter().find(|t| t.object == object)).collect()
+}
+
+fn frames_below(scene: &Scene, object: usize, visible: f64) -> usize {
+    truths(scene, object).iter().filter(|t| t.visible < visible).count()
+}
+
+#[test]
+fn crossings_hide_the_farther_target() {
+    for seed in SEEDS {
+        for (degrees, least) in [(90.0, 5), (15.0, 10)] {
+            let scene = stage::crossing(seed, degrees);
+            let hidden = frames_below(&scene, 1, 0.3);
+            assert!(hidden >= least && hidden <= 30, "{degrees} degrees, seed {seed}: {hidden} frames");
+            assert_eq!(frames_below(&scene, 0, 0.99), 0, "nothing hides the nearer one");
+        }
+    }
+}
+
+#[test]
+fn crossings_have_the_stated_angle() {
+    for degrees in [15.0, 90.0f64] {
+        let scene = stage::crossing(3, degrees);
+        let headings = [0, 1].map(|object| {
+            let all = truths(&scene, object);
+            let (a, b) = (all[10].rect, all[100].rect);
+            (b.left - a.left, b.top - a.top)
+        });
+        let [(ax, ay), (bx, by)] = headings;
+        let cosine = (ax * bx + ay * by) / ((ax * ax + ay * ay) * (bx * bx + by * by)).sqrt();
+        assert!((cosine - libm::cos(degrees.to_radians())).abs() < 1e-9, "{degrees}: cosine {cosine}");
+    }
+}
+
+#[test]
+fn a_full_occlusion_of_one_second_shows_nothing_for_thirty_frames() {
+    for seed in SEEDS {
+        let scene = stage::full_occlusion(seed, 1.0);
+        // 37 px either side at 74 px/s: 1 s; the grid that samples the visible share may add a frame at each end.
+        let nothing = truths(&scene, 1).iter().filter(|t| t.visible == 0.0).count();
+        assert!((30..=32).contains(&nothing), "seed {seed}: {nothing}");
+        let undetected = frames_below(&scene, 1, 0.3);
+        assert!((36..=42).contains(&undetected), "seed {seed}: {undetected}");
+    }
+}
+
+#[test]
+fn the_turn_happens_out_of_sight() {
+    for seed in SEEDS {
+        let scene = stage::turn_while_hidden(seed);
+        let walker = truths(&scene, 1);
+        // 3 s is frame 90.
+        assert!(walker[85..95].iter().all(|t| t.visible < 0.3), "seed {seed}");
+        let hidden = frames_below(&scene, 1, 0.3);
+        assert!((12..=30).contains(&hidden), "seed {seed}: {hidden}");
+        assert!(walker.last().unwrap().visible > 0.9, "seed {seed}: it comes out again");
+    }
+}
+
+#[test]
+fn images_show_the_nearer_object() {
+    // A small object stands before a big one: with either taken away, only its own pixels change.
+    let standing =
+        |x: f64, side: f64, depth: f64| Object::new(side, side, depth, Path::from(0.0, x, 100.0).walk(0.0, 0.0, 1.0));
+    let picture = |objects: Vec<Object>| {
+        let mut scene = Scene::new(1, 0.1, objects);
+        (scene.width, scene.height) = (200, 200);
+        scene.play(true).next().unwrap().image.unwrap()
+    };
+    let (big, small) = (standing(100.0, 80.0, 2.0), standing(100.0, 40.0, 1.0));
+    let both = picture(vec![big.clone(), small.clone()]);
+    let hidden_swapped = picture(vec![Object { depth: 0.5, ..big.clone() }, small.clone()]);
+    let at = |image: &[u8], x: usize, y: usize| image[y * 200 + x];
+    let differing = |area: std::ops::Range<usize>| {
+        area.clone()
+            .flat_map(|y| area.clone().map(move |x| (x, y)))
+            .filter(|&(x, y)| at(&both, x, y) != at(&hidden_swapped, x, y))
+            .count()
+    };
+    // The small one covers 80..120; outside it both pictures are the same, inside almost every pixel differs.
+    assert!(differing(80..120) > 1400, "{}", differing(80..120));
+    assert_eq!(differing(0..200), differing(79..121));
+}
+
+#[test]
+fn sub_pixel_shifts_change_images_gradually() {
+    let at = |x: f64| {
+        let object = Object::new(40.0, 80.0, 1.0, Path::from(0.0, x, 100.0).walk(0.0, 0.0, 1.0));
+        let mut scene = Scene::new(1, 0.1, vec![object]);
+        (scene.width, scene.height) = (200, 200);
+        scene.play(true).next().unwrap().image.unwrap()
+    };
+    let difference = |a: &[u8], b: &[u8]| a.iter().zip(b).map(|(a, b)| a.abs_diff(*b) as u64).sum::<u64>() as f64;
+    let (zero, tenth, one) = (at(100.0), at(100.1), at(101.0));
+    let share = difference(&zero, &tenth) / difference(&zero, &one);
+    assert!((0.03..0.25).contains(&share), "a tenth of a pixel makes {share} of the change of a pixel");
+}
+
+#[test]
+fn the_camera_motion_moves_what_stands_still() {
+    let object = Object::new(40.0, 100.0, 1.0, Path::from(0.0, 300.0, 200.0).walk(0.0, 0.0, 2.0));
+    let mut scene = Scene::new(1, 2.0, vec![object]);
+    scene.camera = Camera { rotation: Default::default(), ..stage::SHAKE };
+    let seen: Vec<_> = scene.play(false).collect();
+    let mut farthest: f64 = 0.0;
+    for pair in seen.windows(2) {
+        let (before, now) = (pair[0].truth[0].rect, pair[1].truth[0].rect);
+        let (x, y) = pair[1].camera_motion.apply_point(before.left, before.top);
+        assert!((x - now.left).abs() < 1e-6 && (y - now.top).abs() < 1e-6);
+        farthest = farthest.max((now.left - before.left).abs());
+    }
+    assert!(farthest > 20.0 && farthest < 30.0, "{farthest}");
+}
+
+#[test]
+fn the_detector_is_as_noisy_as_stated() {
+    let object = Object::new(50.0, 100.0, 1.0, Path::from(0.0, 300.0, 200.0).walk(0.0, 0.0, 400.0));
+    let mut scene = Scene::new(1, 400.0, vec![object]);
+    scene.detector = Detector { miss: 0.3, clutter: 0.5, ..scene.detector };
+    let (mut found, mut clutter, mut squares, mut score) = (0.0, 0.0, 0.0, 0.0);
+    for seen in scene.play(false) {
+        for (detection, source) in seen.detections.iter().zip(&seen.source) {
+            match source {
+                None => clutter += 1.0,
+                Some(_) => {
+                    let u = detection.rect.left + 0.5 * detection.rect.width;
+                    found += 1.0;
+                    score += detection.score;
+                    squares += (u - 300.0) * (u - 300.0);
+                }
+            }
+        }
+    }
+    // 12 000 frames: the standard deviation of a share is below 0.005; the centre's is 2 % of 50 px = 1 px.
+    assert!((found / 12_000.0 - 0.7f64).abs() < 0.02, "{found}");
+    assert!((clutter / 12_000.0 - 0.5f64).abs() < 0.02, "{clutter}");
+    assert!((squares / found - 1.0f64).abs() < 0.1, "{}", squares / found);
+    assert!((score / found - 0.9f64).abs() < 0.01, "{}", score / found);
+}
