@@ -152,3 +152,91 @@ fn the_detector_is_as_noisy_as_stated() {
     assert!((squares / found - 1.0f64).abs() < 0.1, "{}", squares / found);
     assert!((score / found - 0.9f64).abs() < 0.01, "{}", score / found);
 }
+
+/// The verdict on an imaginary tracker that knows the truth, told through `tamper`, which may spoil the tracks it shows
+/// in a frame.
+mod verdict {
+    use std::collections::BTreeMap;
+
+    use gentrack2::{Output, Track, TrackState};
+
+    use super::*;
+    use crate::simulator::scene::Observation;
+    use crate::simulator::verdict::Verdict;
+
+    fn complaints(tamper: impl Fn(&Observation, &mut Track)) -> Vec<String> {
+        let scene = stage::crossing(0, 90.0);
+        let mut verdict = Verdict::new(&scene);
+        let mut born: BTreeMap<u64, usize> = BTreeMap::new();
+        let mut before: Vec<u64> = Vec::new();
+        for seen in scene.play(false) {
+            let mut output = Output::default();
+            output.begin(seen.detections.len());
+            for truth in &seen.truth {
+                let row = seen.source.iter().position(|s| *s == Some(truth.object));
+                let mut track = known(truth, row.map(|row| (row, &seen.detections[row])));
+                tamper(&seen, &mut track);
+                let first = *born.entry(track.id).or_insert(seen.frame);
+                track.age = (seen.frame - first + 2) as u32;
+                if let Some(row) = row {
+                    output.track_of_detection[row] = track.id;
+                }
+                output.reported.push(track);
+            }
+            let now: Vec<u64> = output.reported.iter().map(|t| t.id).collect();
+            output.ended = before.iter().copied().filter(|id| !now.contains(id)).collect();
+            before = now;
+            verdict.watch(&seen, true, &output);
+        }
+        verdict.complaints()
+    }
+
+    fn known(truth: &Truth, detection: Option<(usize, &gentrack2::Detection)>) -> Track {
+        Track {
+            id: truth.object as u64 + 1,
+            rect: truth.rect,
+            velocity: Default::default(),
+            state: if detection.is_some() { TrackState::Confirmed } else { TrackState::Lost },
+            score: detection.map_or(0.5, |d| d.1.score),
+            class_id: 0,
+            tag: detection.map_or(0, |d| d.1.tag),
+            detection_index: detection.map(|d| d.0),
+            age: 0,
+            hits: 1,
+            frames_since_match: u32::from(detection.is_none()),
+        }
+    }
+
+    #[test]
+    fn has_nothing_to_say_of_the_truth() {
+        assert_eq!(complaints(|_, _| {}), Vec::<String>::new());
+    }
+
+    #[test]
+    fn names_a_swap_of_identities() {
+        let got = complaints(|seen, track| {
+            if seen.frame >= 80 {
+                track.id = 3 - track.id;
+            }
+        });
+        assert_eq!(got.len(), 2, "{got:?}");
+        assert!(got[0].starts_with("object 0 had (frame, id) [(0, 1), (") && got[0].ends_with(", 2)]"), "{got:?}");
+    }
+
+    #[test]
+    fn names_a_second_identity() {
+        let got = complaints(|seen, track| {
+            if seen.frame >= 80 && track.id == 2 {
+                track.id = 9;
+            }
+        });
+        assert!(got.len() == 1 && got[0].starts_with("object 1 had (frame, id) [(0, 2), ("), "{got:?}");
+    }
+
+    #[test]
+    fn names_boxes_that_are_off() {
+        // Half a width to the side: IoU 1/3.
+        let got = complaints(|_, track| track.rect.left += 0.5 * track.rect.width);
+        assert_eq!(got, ["object 0 had a mean IoU of 0.33", "object 1 had a mean IoU of 0.33"]);
+    }
+}
