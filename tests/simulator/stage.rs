@@ -72,15 +72,15 @@ pub fn side_by_side(seed: u64, gone: f64) -> Scene {
     mirrored(Scene::new(seed, 6.0, vec![first, second]))
 }
 
-/// A walker goes behind a standing target and turns there by 60 to 90 degrees, so that it comes out at the top
-/// instead of the other side.
+/// A walker goes behind a standing target hardly wider than itself and turns there by 60 to 90 degrees, so that it
+/// comes out at the top instead of the other side. It is out of sight for about half a second.
 pub fn turn_while_hidden(seed: u64) -> Scene {
     let mut vary = variation(seed);
     let speed = 60.0 * vary.between(0.9, 1.1);
     let angle = vary.between(60.0, 90.0f64).to_radians();
-    let standing = Object::new(70.0, 170.0, 1.0, Path::from(0.0, 384.0, 320.0).walk(0.0, 0.0, 6.0));
-    // At the turn, at 3 s, the walker's head is just below that of the standing target.
-    let (x, y) = (384.0 - 5.0, 235.0 + 45.0 + vary.between(0.0, 5.0));
+    let standing = Object::new(46.0, 170.0, 1.0, Path::from(0.0, 384.0, 320.0).walk(0.0, 0.0, 6.0));
+    // At the turn, at 3 s, its head shows 13 px above that of the standing target: a seventh of it.
+    let (x, y) = (384.0 + 3.0, 235.0 - 13.0 + 45.0 + vary.between(-1.0, 1.0));
     let before = Path::from(0.0, x - 3.0 * speed, y).walk(speed, 0.0, 3.0);
     let path = before.walk(speed * libm::cos(angle), -speed * libm::sin(angle), 6.0);
     mirrored(Scene::new(seed, 6.0, vec![standing, Object::new(36.0, 90.0, 2.0, path)]))
