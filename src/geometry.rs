@@ -3,6 +3,7 @@
 /// An axis-aligned box by its left-top corner and size, in pixels. The form in which boxes enter and leave the
 /// library.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
 pub struct Rect {
     /// Left edge.
     pub left: f64,
@@ -55,6 +56,7 @@ impl Rect {
 /// A box by its centre and size: the state `X = (u, v, w, h)` of the paper, in pixels. Also used for its time
 /// derivative `V`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
 pub struct State {
     /// Horizontal centre.
     pub u: f64,

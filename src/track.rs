@@ -40,8 +40,10 @@ pub struct Track {
     pub frames_since_match: u32,
 }
 
-/// One particle of a track: a hypothesis of its box.
+/// One particle of a track: a hypothesis of its box. Laid out as in C, so that the C ABI can lend
+/// it as it lies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
 pub struct Particle {
     /// Box in pixels.
     pub rect: Rect,

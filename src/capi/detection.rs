@@ -1,0 +1,72 @@
+//! Detections on their way in.
+
+use super::pointer::require;
+use super::status::*;
+use crate::error::Error;
+use crate::frame::Detection;
+use crate::geometry::Rect;
+
+/// One detection. All zero is an empty box of score 0, which is legal. Boxes may reach or lie outside the image.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct gt2_detection {
+    /// Left edge in pixels; finite, of at most 1e12 like all coordinates.
+    pub left: f64,
+    /// Top edge in pixels; y points down.
+    pub top: f64,
+    /// Width in pixels, not negative. A box of zero width or height is accepted but takes part in nothing that
+    /// needs an area: it overlaps no other box.
+    pub width: f64,
+    /// Height in pixels, not negative.
+    pub height: f64,
+    /// Confidence of the detector, in 0..=1.
+    pub score: f64,
+    /// Class of the object, any number; comes back on the track.
+    pub class_id: i32,
+    /// Must be 0.
+    pub reserved: i32,
+    /// Any number of the caller's; comes back on the track that takes this detection.
+    pub tag: u64,
+}
+
+/// Bytes of `gt2_detection` in its first published layout, which a stride of 0 stands for. Never changes.
+const FIRST_SIZE: usize = size_of::<gt2_detection>();
+
+/// Reads the caller's detections into a buffer that is reused from frame to frame.
+///
+/// # Safety
+/// `rows` is NULL or has `count` rows `stride` bytes apart.
+pub(super) unsafe fn read_detections(
+    rows: *const gt2_detection,
+    count: usize,
+    stride: usize,
+    limit: usize,
+    into: &mut Vec<Detection>,
+) -> Result<(), Failure> {
+    into.clear();
+    if count == 0 {
+        return Ok(());
+    }
+    require(rows, "frame.detections")?;
+    if count > limit {
+        // Before anything is read, as a count that is a mistake leads out of the array.
+        return Err(Error::Limit { what: "detections", count, limit, parameter: "max_detections" }.into());
+    }
+    let stride = if stride == 0 { FIRST_SIZE } else { stride };
+    if stride < FIRST_SIZE || count.checked_mul(stride).is_none_or(|bytes| bytes > isize::MAX as usize) {
+        return Err(Failure::argument(format!("frame.detection_stride: is {stride}, must be at least {FIRST_SIZE}")));
+    }
+    into.reserve(count);
+    for row in 0..count {
+        // SAFETY: the row is within the array; rows of a packed array of larger structs may be misaligned.
+        let d = unsafe { rows.byte_add(row * stride).read_unaligned() };
+        if d.reserved != 0 {
+            return Err(
+                Error::Detection { row, field: "reserved", reason: format!("is {}, must be 0", d.reserved) }.into()
+            );
+        }
+        let rect = Rect::new(d.left, d.top, d.width, d.height);
+        into.push(Detection { rect, score: d.score, class_id: d.class_id, tag: d.tag });
+    }
+    Ok(())
+}

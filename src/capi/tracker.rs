@@ -1,0 +1,292 @@
+//! The tracker handle.
+
+use std::ffi::c_char;
+use std::ptr::null;
+
+use super::config::gt2_config;
+use super::frame::{gt2_frame, read_frame};
+use super::guard::{find_in, guard, guard_exclusive, guard_shared};
+use super::handle::{Handle, Header, borrow_mut, give, take};
+use super::particle::{gt2_particle, gt2_particle_list};
+use super::pointer::{require, start, store};
+use super::status::*;
+use super::track::*;
+use super::{structs, tables};
+use crate::config::Config;
+use crate::frame::Detection;
+use crate::track::Output;
+use crate::tracker::Tracker;
+
+/// Tracks the objects of one video stream. Made by `gt2_tracker_new`, released by `gt2_tracker_free`.
+pub struct gt2_tracker {
+    header: Header,
+    config: Config,
+    tracker: Tracker,
+    /// The caller's detections; kept for its memory.
+    detections: Vec<Detection>,
+    tracks: TrackLists,
+}
+
+/// The output's tracks in their C form.
+#[derive(Default)]
+struct TrackLists {
+    reported: Vec<gt2_track>,
+    tentative: Vec<gt2_track>,
+    lost: Vec<gt2_track>,
+}
+
+impl TrackLists {
+    fn fill(&mut self, output: &Output) {
+        for (to, from) in [
+            (&mut self.reported, &output.reported),
+            (&mut self.tentative, &output.tentative),
+            (&mut self.lost, &output.lost),
+        ] {
+            to.clear();
+            to.extend(from.iter().map(gt2_track::from));
+        }
+    }
+
+    fn of_kind(&self, kind: i32) -> Result<&[gt2_track], Failure> {
+        match kind {
+            GT2_TRACKS_REPORTED => Ok(&self.reported),
+            GT2_TRACKS_TENTATIVE => Ok(&self.tentative),
+            GT2_TRACKS_LOST => Ok(&self.lost),
+            _ => Err(Failure::argument(format!("kind: is {kind}, must be one of GT2_TRACKS_..."))),
+        }
+    }
+}
+
+// SAFETY: as declared.
+unsafe impl Handle for gt2_tracker {
+    const TAG: u64 = 0x6774_3274_7261_636b;
+    const NAME: &'static str = "tracker";
+    const OFFSET: usize = std::mem::offset_of!(gt2_tracker, header);
+    fn header(&self) -> &Header {
+        &self.header
+    }
+}
+
+impl gt2_tracker {
+    fn new(config: Config, tracker: Tracker) -> Self {
+        let header = Header::new(Self::TAG);
+        Self { header, config, tracker, detections: Vec::new(), tracks: TrackLists::default() }
+    }
+
+    unsafe fn step(&mut self, frame: *const gt2_frame) -> Result<(), Failure> {
+        let limit = self.config.common.max_detections as usize;
+        // SAFETY: passed on to the caller.
+        let frame = unsafe { read_frame(frame, limit, &mut self.detections) }?;
+        let output = self.tracker.step(&frame)?;
+        self.tracks.fill(output);
+        Ok(())
+    }
+
+    fn reset(&mut self) -> Result<(), Failure> {
+        // A panic may have left anything behind, so nothing of the old tracker is kept.
+        self.tracker = Tracker::new(&self.config)?;
+        self.tracks.fill(self.tracker.output());
+        self.header.heal();
+        Ok(())
+    }
+}
+
+/// Makes a tracker with a copy of `config` and stores it in `*out`. The first identity is the parameter first_id.
+///
+/// Errors: `GT2_ERR_NULL_POINTER`, `GT2_ERR_PARAMETER_VALUE` if parameters contradict each other.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gt2_tracker_new(config: *const gt2_config, out: *mut *mut gt2_tracker) -> gt2_status {
+    // SAFETY: a handle and an output by the contract of the header.
+    unsafe {
+        guard_shared(config, |c| {
+            require(out, "out")?;
+            let tracker = Tracker::new(c.config())?;
+            store(out, give(gt2_tracker::new(c.config().clone(), tracker)));
+            Ok(())
+        })
+    }
+}
+
+/// Releases a tracker and all lists borrowed from it; NULL is ignored.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gt2_tracker_free(tracker: *mut gt2_tracker) {
+    // SAFETY: the handle is given up by the caller.
+    guard(|| unsafe { take(tracker) }.map(drop));
+}
+
+/// Forgets everything but the config: the next step is as the first of a new tracker, identities start over. Also
+/// makes a tracker usable again that met an internal error. Borrowed lists end.
+///
+/// Errors: `GT2_ERR_NULL_POINTER`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gt2_tracker_reset(tracker: *mut gt2_tracker) -> gt2_status {
+    // Not through `guard_exclusive`, which refuses the poisoned handles that this is for.
+    guard(|| {
+        // SAFETY: a handle by the contract of the header.
+        let tracker = unsafe { borrow_mut(tracker) }?;
+        tracker.reset()
+    })
+}
+
+/// Advances by one frame. Afterwards the functions below tell what became of the tracks; lists borrowed before have
+/// ended. On an error the tracker, the results of the last step included, is as before the call, and the next step
+/// gives what it would have given without it (except after `GT2_ERR_PANIC`).
+///
+/// Errors: `GT2_ERR_NULL_POINTER`, `GT2_ERR_INVALID_ARGUMENT`, `GT2_ERR_STRUCT_SIZE`, and for the contents of the frame
+/// `GT2_ERR_DETECTION`, `GT2_ERR_IMAGE`, `GT2_ERR_EMBEDDINGS`, `GT2_ERR_CAMERA_MOTION`, `GT2_ERR_TIMESTAMP`,
+/// `GT2_ERR_FRAME`, `GT2_ERR_LIMIT`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gt2_tracker_step(tracker: *mut gt2_tracker, frame: *const gt2_frame) -> gt2_status {
+    // SAFETY: a handle and a frame by the contract of the header.
+    unsafe { guard_exclusive(tracker, |t| t.step(frame)) }
+}
+
+/// Name of the tracker's algorithm. Static. NULL if `tracker` is not a tracker.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gt2_tracker_algorithm(tracker: *const gt2_tracker) -> *const c_char {
+    // SAFETY: a handle by the contract of the header.
+    unsafe { find_in(tracker, null(), |t| Ok(tables::of(t.tracker.algorithm()).name.as_ptr())) }
+}
+
+/// Lists the tracks of a kind, `GT2_TRACKS_REPORTED`, `GT2_TRACKS_TENTATIVE` or `GT2_TRACKS_LOST`, after the last
+/// step, in `*out`, whose `struct_size` the caller has set. The list is borrowed from the tracker until its next step,
+/// reset or release. A live track is in exactly one of the three lists.
+///
+/// Errors: `GT2_ERR_NULL_POINTER`, `GT2_ERR_INVALID_ARGUMENT`, `GT2_ERR_STRUCT_SIZE`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gt2_tracker_tracks(
+    tracker: *const gt2_tracker,
+    kind: i32,
+    out: *mut gt2_track_list,
+) -> gt2_status {
+    // SAFETY: a handle and an output by the contract of the header.
+    unsafe {
+        guard_shared(tracker, |t| {
+            let list = t.tracks.of_kind(kind)?;
+            let (tracks, stride) = (start(list), size_of::<gt2_track>());
+            structs::write(out, &gt2_track_list { struct_size: 0, tracks, count: list.len(), stride })
+        })
+    }
+}
+
+/// Copies the tracks of a kind to `buffer`, an array of `capacity` elements of `element_size` bytes, which is
+/// `sizeof(gt2_track)`; fields that this library does not know become 0. Stores the number of tracks in `*needed`,
+/// which may be NULL; with a `capacity` of 0 that is all it does. If the buffer is too small it stays as it is and
+/// `*needed` is stored all the same.
+///
+/// Errors: `GT2_ERR_NULL_POINTER`, `GT2_ERR_INVALID_ARGUMENT`, `GT2_ERR_BUFFER_TOO_SMALL`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gt2_tracker_copy_tracks(
+    tracker: *const gt2_tracker,
+    kind: i32,
+    buffer: *mut gt2_track,
+    element_size: usize,
+    capacity: usize,
+    needed: *mut usize,
+) -> gt2_status {
+    // SAFETY: a handle, a buffer and an output by the contract of the header.
+    unsafe {
+        guard_shared(tracker, |t| {
+            let list = t.tracks.of_kind(kind)?;
+            if capacity == 0 {
+                require(needed, "needed (with capacity 0)")?;
+            } else {
+                require(buffer, "buffer")?;
+                check_element_size(element_size)?;
+            }
+            if !needed.is_null() {
+                store(needed, list.len());
+            }
+            if capacity == 0 {
+                return Ok(());
+            }
+            if list.len() > capacity {
+                let reason = format!("capacity: is {capacity}, there are {} tracks", list.len());
+                return Err(Failure::new(GT2_ERR_BUFFER_TOO_SMALL, reason));
+            }
+            for (i, track) in list.iter().enumerate() {
+                let row = buffer.cast::<u8>().add(i * element_size);
+                structs::write_row(row, element_size, (&raw const *track).cast(), size_of::<gt2_track>(), 0);
+            }
+            Ok(())
+        })
+    }
+}
+
+/// Size of `gt2_track` in its first published layout; no header has a smaller one.
+const FIRST_TRACK_SIZE: usize = size_of::<gt2_track>();
+
+fn check_element_size(size: usize) -> Result<(), Failure> {
+    if (FIRST_TRACK_SIZE..=4096).contains(&size) {
+        return Ok(());
+    }
+    Err(Failure::argument(format!("element_size: is {size}, must be sizeof(gt2_track), in {FIRST_TRACK_SIZE}..=4096")))
+}
+
+/// Stores in `*ids` and `*count` the identities that ended in the last step, each named in one step only. Borrowed as
+/// in `gt2_tracker_tracks`; NULL if there are none.
+///
+/// Errors: `GT2_ERR_NULL_POINTER`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gt2_tracker_ended(
+    tracker: *const gt2_tracker,
+    ids: *mut *const u64,
+    count: *mut usize,
+) -> gt2_status {
+    // SAFETY: a handle and outputs by the contract of the header.
+    unsafe { list_ids(tracker, ids, count, |output| &output.ended) }
+}
+
+/// Stores in `*ids` and `*count` for each detection of the last step, in their order, the identity of the track that
+/// took it, 0 for none. Borrowed as in `gt2_tracker_tracks`; NULL if there were no detections.
+///
+/// Errors: `GT2_ERR_NULL_POINTER`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gt2_tracker_track_of_detection(
+    tracker: *const gt2_tracker,
+    ids: *mut *const u64,
+    count: *mut usize,
+) -> gt2_status {
+    // SAFETY: a handle and outputs by the contract of the header.
+    unsafe { list_ids(tracker, ids, count, |output| &output.track_of_detection) }
+}
+
+unsafe fn list_ids(
+    tracker: *const gt2_tracker,
+    ids: *mut *const u64,
+    count: *mut usize,
+    list: fn(&Output) -> &Vec<u64>,
+) -> gt2_status {
+    // SAFETY: passed on to the caller.
+    unsafe {
+        guard_shared(tracker, |t| {
+            require(ids, "ids")?;
+            require(count, "count")?;
+            let list = list(t.tracker.output());
+            store(ids, start(list));
+            store(count, list.len());
+            Ok(())
+        })
+    }
+}
+
+/// Lists the particles of the live track `id` as they were in the last step, in `*out`, whose `struct_size` the caller
+/// has set. Borrowed as in `gt2_tracker_tracks`. Empty for algorithms without particles.
+///
+/// Errors: `GT2_ERR_NULL_POINTER`, `GT2_ERR_UNKNOWN_TRACK`, `GT2_ERR_STRUCT_SIZE`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gt2_tracker_particles(
+    tracker: *const gt2_tracker,
+    id: u64,
+    out: *mut gt2_particle_list,
+) -> gt2_status {
+    // SAFETY: a handle and an output by the contract of the header.
+    unsafe {
+        guard_shared(tracker, |t| {
+            let list = t.tracker.particles(id)?;
+            // The layouts are the same, see `particle.rs`.
+            let (particles, stride) = (start(list).cast::<gt2_particle>(), size_of::<gt2_particle>());
+            structs::write(out, &gt2_particle_list { struct_size: 0, particles, count: list.len(), stride })
+        })
+    }
+}
