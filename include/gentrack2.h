@@ -434,8 +434,9 @@ uint32_t gt2_abi_version(void);
 const char *gt2_status_str(gt2_status status);
 
 /// What went wrong in the last call on this thread that failed: one line that names the field, the row and the
-/// range, such as "detections[3].width: is -2, must not be negative". "" if none has failed. Valid until the next
-/// call on this thread that fails; calls that succeed leave it alone.
+/// range, such as "detections[3].width: is -2, must not be negative". "" if none has failed; calls that succeed
+/// leave it alone. The pointer is valid, and always the same, until the thread ends; copy the text to keep it beyond
+/// the next call that fails.
 const char *gt2_last_error_message(void);
 
 /// Number of algorithms in this library.

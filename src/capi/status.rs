@@ -1,7 +1,7 @@
 //! Status codes and the last error of the thread.
 
-use std::cell::RefCell;
-use std::ffi::{CString, c_char};
+use std::cell::Cell;
+use std::ffi::c_char;
 
 use crate::error::Error;
 
@@ -91,16 +91,20 @@ impl From<Error> for Failure {
     }
 }
 
+/// Longest message in bytes, the NUL included; longer ones are cut.
+const MESSAGE_SIZE: usize = 1024;
+
 thread_local! {
-    static LAST_ERROR: RefCell<CString> = RefCell::default();
+    /// A fixed buffer, so that the pointer a caller holds never dangles while its thread lives.
+    static LAST_ERROR: Cell<[u8; MESSAGE_SIZE]> = const { Cell::new([0; MESSAGE_SIZE]) };
 }
 
 /// Makes a failure the last error of this thread and returns its status.
 pub(super) fn report(failure: Failure) -> gt2_status {
-    // A key from outside may be quoted in the message, but came as a C string; only a panic's text may hold a NUL.
-    let text = CString::new(failure.message.replace('\0', "\\0")).unwrap_or_default();
-    // A thread that is going away keeps no message.
-    let _ = LAST_ERROR.try_with(|last| last.replace(text));
+    let text = &failure.message[..failure.message.floor_char_boundary(MESSAGE_SIZE - 1)];
+    let mut buffer = [0; MESSAGE_SIZE];
+    buffer[..text.len()].copy_from_slice(text.as_bytes());
+    LAST_ERROR.with(|last| last.set(buffer));
     failure.status
 }
 
@@ -135,9 +139,28 @@ pub extern "C" fn gt2_status_str(status: gt2_status) -> *const c_char {
 }
 
 /// What went wrong in the last call on this thread that failed: one line that names the field, the row and the
-/// range, such as "detections[3].width: is -2, must not be negative". "" if none has failed. Valid until the next
-/// call on this thread that fails; calls that succeed leave it alone.
+/// range, such as "detections[3].width: is -2, must not be negative". "" if none has failed; calls that succeed
+/// leave it alone. The pointer is valid, and always the same, until the thread ends; copy the text to keep it beyond
+/// the next call that fails.
 #[unsafe(no_mangle)]
 pub extern "C" fn gt2_last_error_message() -> *const c_char {
-    LAST_ERROR.try_with(|last| last.borrow().as_ptr()).unwrap_or(c"".as_ptr())
+    LAST_ERROR.with(|last| last.as_ptr().cast())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::ffi::CStr;
+
+    #[test]
+    fn long_messages_are_cut_between_characters() {
+        // 1022 bytes, then a character of two bytes that would take bytes 1022 and 1023, where the NUL must be.
+        report(Failure::argument(format!("{}\u{e9}", "x".repeat(1022))));
+        // SAFETY: the function returns a C string that stays valid until the next failing call.
+        let message = unsafe { CStr::from_ptr(gt2_last_error_message()) };
+        assert_eq!(message.to_str().unwrap(), "x".repeat(1022));
+        report(Failure::argument("short"));
+        // SAFETY: as above.
+        assert_eq!(unsafe { CStr::from_ptr(gt2_last_error_message()) }, c"short");
+    }
 }
