@@ -102,8 +102,7 @@ impl Swarm {
         let to_own = target.particles[index].state - here.state;
         let to_best = target.particles[best].state - here.state;
         let mut pull = |towards: f64, everyone: f64| {
-            let own = target.random.unit();
-            let social = target.random.unit();
+            let (own, social) = target.random.unit_pair();
             p.pso_cognitive * own * towards + p.pso_social * social * everyone
         };
         let pulled = State::new(

@@ -7,8 +7,6 @@
 //! Of an even number the median is the mean of the middle two. Only states that a detection confirmed take part, so a
 //! track that coasts does not learn from itself.
 
-use std::collections::VecDeque;
-
 use crate::geometry::State;
 
 use super::parameters::{GenTrack2Parameters, RegressionLags};
@@ -40,10 +38,10 @@ impl Reach {
     }
 }
 
-/// Buffers, shared by all targets.
+/// Buffers, shared by all targets: the slopes of each component.
 #[derive(Clone, Debug, Default)]
 pub struct VelocityRegression {
-    slopes: Vec<f64>,
+    slopes: [Vec<OrderKey>; 4],
 }
 
 impl VelocityRegression {
@@ -54,31 +52,28 @@ impl VelocityRegression {
         }
         target.history.push_back(Observation { time, state: target.state });
         let centre = p.slope_limit * target.state.diagonal();
-        let size = p.size_slope_limit;
-        let lags = Lags::new(p.regression_lags, reach.window, target.history.len());
-        let mut component = |get: fn(&State) -> f64, limit: f64| self.median_slope(&target.history, lags, get, limit);
-        target.velocity = State::new(
-            component(|s| s.u, centre),
-            component(|s| s.v, centre),
-            component(|s| s.w, size * target.state.w),
-            component(|s| s.h, size * target.state.h),
-        );
+        let (width, height) = (p.size_slope_limit * target.state.w, p.size_slope_limit * target.state.h);
+        let limits = State::new(centre, centre, width, height);
+        self.collect_slopes(target.history.make_contiguous(), p.regression_lags, reach.window, &limits);
+        let [u, v, w, h] = self.slopes.each_mut().map(|slopes| median(slopes));
+        target.velocity = State::new(u, v, w, h);
     }
 
-    fn median_slope(&mut self, history: &VecDeque<Observation>, lags: Lags, get: fn(&State) -> f64, limit: f64) -> f64 {
-        self.slopes.clear();
-        let (older, newer) = history.as_slices();
-        let at = |i: usize| if i < older.len() { &older[i] } else { &newer[i - older.len()] };
-        for lag in lags.iter() {
-            for i in 0..history.len().saturating_sub(lag) {
-                let (from, to) = (at(i), at(i + lag));
-                let slope = (get(&to.state) - get(&from.state)) / (to.time - from.time);
-                if slope.abs() <= limit {
-                    self.slopes.push(slope);
+    fn collect_slopes(&mut self, history: &[Observation], lags: RegressionLags, window: usize, limits: &State) {
+        self.slopes.iter_mut().for_each(Vec::clear);
+        for lag in Lags::new(lags, window, history.len()).iter() {
+            let later = history.get(lag..).unwrap_or_default();
+            for (from, to) in history.iter().zip(later) {
+                let (rise, run) = (to.state - from.state, to.time - from.time);
+                let slopes = [rise.u / run, rise.v / run, rise.w / run, rise.h / run];
+                let limits = [limits.u, limits.v, limits.w, limits.h];
+                for ((list, slope), limit) in self.slopes.iter_mut().zip(slopes).zip(limits) {
+                    if slope.abs() <= limit {
+                        list.push(slope.into());
+                    }
                 }
             }
         }
-        median(&mut self.slopes)
     }
 }
 
@@ -100,17 +95,36 @@ impl Lags {
     }
 }
 
+/// A number as an integer of the same order: comparing integers is what makes selection fast.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct OrderKey(i64);
+
+impl From<f64> for OrderKey {
+    fn from(x: f64) -> Self {
+        let bits = x.to_bits() as i64;
+        Self(bits ^ ((bits >> 63) as u64 >> 1) as i64)
+    }
+}
+
+impl From<OrderKey> for f64 {
+    fn from(OrderKey(key): OrderKey) -> f64 {
+        // The transformation is its own inverse: it leaves the sign bit alone.
+        f64::from_bits((key ^ ((key >> 63) as u64 >> 1) as i64) as u64)
+    }
+}
+
 /// The median, the mean of the middle two for an even number, 0 for none. Reorders the values.
-pub fn median(values: &mut [f64]) -> f64 {
+pub fn median(values: &mut [OrderKey]) -> f64 {
     if values.is_empty() {
         return 0.0;
     }
     let middle = values.len() / 2;
     let even = values.len().is_multiple_of(2);
-    let (lower, upper, _) = values.select_nth_unstable_by(middle, f64::total_cmp);
-    match even {
-        false => *upper,
-        true => 0.5 * (*upper + lower.iter().copied().fold(f64::NEG_INFINITY, f64::max)),
+    let (lower, upper, _) = values.select_nth_unstable(middle);
+    let upper = f64::from(*upper);
+    match lower.iter().max().filter(|_| even) {
+        Some(lower) => 0.5 * (f64::from(*lower) + upper),
+        None => upper,
     }
 }
 
@@ -149,6 +163,15 @@ mod tests {
         // u = 0, 1, 3, 6, 10: slopes 1, 2, 3, 4: (2 + 3) / 2.
         let track = [(0.0, 0.0), (1.0, 1.0), (2.0, 3.0), (3.0, 6.0), (4.0, 10.0)];
         assert_eq!(regress(&all(10, 1), &track).u, 2.5);
+    }
+
+    #[test]
+    fn order_keys_order_like_their_numbers_and_give_them_back() {
+        let sorted = [f64::NEG_INFINITY, -2.5, -1e-300, 0.0, 1e-300, 1.0, 3.75];
+        for pair in sorted.windows(2) {
+            assert!(OrderKey::from(pair[0]) < OrderKey::from(pair[1]));
+            assert_eq!(f64::from(OrderKey::from(pair[0])), pair[0]);
+        }
     }
 
     #[test]

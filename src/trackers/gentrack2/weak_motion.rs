@@ -6,7 +6,7 @@ use crate::geometry::State;
 
 use super::parameters::{GenTrack2Parameters, WeakMotion};
 use super::target::Target;
-use super::velocity_regression::median;
+use super::velocity_regression::{OrderKey, median};
 
 /// A point or displacement of box centres.
 type Vector = (f64, f64);
@@ -26,7 +26,7 @@ pub struct Trusted {
 /// Buffers of the medians.
 #[derive(Clone, Debug, Default)]
 pub struct TrustedMedian {
-    buffer: Vec<f64>,
+    buffer: Vec<OrderKey>,
 }
 
 impl TrustedMedian {
@@ -36,7 +36,7 @@ impl TrustedMedian {
         strong().next()?;
         let mut of = |get: fn(&Target) -> f64| {
             self.buffer.clear();
-            self.buffer.extend(strong().map(get));
+            self.buffer.extend(strong().map(|t| OrderKey::from(get(t))));
             median(&mut self.buffer)
         };
         Some(Trusted {
