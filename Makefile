@@ -1,0 +1,48 @@
+# The short commands; everything is done by cargo and CMake.
+
+BUILD := build
+JOBS ?= $(shell nproc 2>/dev/null || echo 2)
+
+# Measurement data next to the checkout, if there is any; tests that need it say so when they skip.
+ifeq ($(origin GENTRACK2_SHARED),undefined)
+ifneq ($(wildcard ../shared/mot17),)
+export GENTRACK2_SHARED := $(abspath ../shared)
+endif
+endif
+
+.PHONY: help build demo test lint fmt-check clean
+
+help:
+	@echo "make build      the library and the examples, in $(BUILD)/"
+	@echo "make demo       track OpenCV's sample video; results in out/"
+	@echo "make test       all tests: Rust, C and C++"
+	@echo "make lint       formatting and clippy"
+	@echo "make clean      remove $(BUILD)/, out/ and target/"
+	@echo
+	@echo "build, demo and test install the Debian packages they need and do not find."
+
+build:
+	@tools/install-needs.sh build
+	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release
+	@cmake --build $(BUILD) --parallel $(JOBS)
+
+demo:
+	@tools/install-needs.sh demo
+	@$(MAKE) --no-print-directory build
+	@tools/demo.sh
+
+test:
+	@tools/install-needs.sh test
+	@$(MAKE) --no-print-directory build
+	cargo test
+	ctest --test-dir $(BUILD) --output-on-failure
+
+lint: fmt-check
+	cargo clippy --all-targets -- -D warnings
+
+fmt-check:
+	cargo fmt --check
+
+clean:
+	rm -rf $(BUILD) out
+	cargo clean

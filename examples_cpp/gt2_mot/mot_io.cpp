@@ -1,0 +1,156 @@
+#include "mot_io.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+
+#include "text.hpp"
+
+namespace gt2_mot {
+namespace {
+
+/// Calls `visit(number, line)` for every line of `text` that is not blank.
+template <typename Visit>
+void for_each_line(std::string_view text, Visit visit) {
+    for (long number = 1; !text.empty(); ++number) {
+        const auto end = std::min(text.find('\n'), text.size());
+        const auto line = trimmed(text.substr(0, end));
+        if (!line.empty()) visit(number, line);
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+}
+
+[[noreturn]] void bad_row(const std::string &path, long line, const std::string &reason) {
+    throw UserError(path + ":" + std::to_string(line) + ": " + reason);
+}
+
+std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
+
+struct ParsedRow {
+    long frame;
+    DetectionRow detection;
+};
+
+ParsedRow parse_detection(const std::string &path, long line, std::string_view text, bool normalise) {
+    static constexpr const char *names[] = {"frame", "id", "left", "top", "width", "height", "score"};
+    const auto fields = split_commas(text);
+    if (fields.size() < 7) {
+        bad_row(path, line, "expected at least 7 fields frame,id,left,top,width,height,score, found " +
+                                std::to_string(fields.size()));
+    }
+    double values[7];
+    for (int i = 0; i < 7; ++i) {
+        const auto value = parse_number(fields[i]);
+        if (!value) bad_row(path, line, std::string(names[i]) + " " + quoted(fields[i]) + " is not a finite number");
+        values[i] = *value;
+    }
+    const auto frame = parse_integer(fields[0]);
+    if (!frame || *frame < 1 || *frame > max_frame) {
+        bad_row(path, line, "frame " + quoted(fields[0]) + " is not an integer in 1.." + std::to_string(max_frame));
+    }
+    for (int i = 4; i < 6; ++i) {
+        if (values[i] <= 0) bad_row(path, line, std::string(names[i]) + " " + quoted(fields[i]) + " is not above 0");
+    }
+    double score = values[6];
+    if (normalise) score = 1.0 / (1.0 + std::exp(-score));
+    if (score < 0 || score > 1) {
+        bad_row(path, line, "score " + quoted(fields[6]) + " is outside 0..1 (--normalise-scores squashes any range)");
+    }
+    return {static_cast<long>(*frame), {values[2], values[3], values[4], values[5], score}};
+}
+
+float little_endian_float(const char *bytes) {
+    std::uint32_t bits = 0;
+    for (int i = 3; i >= 0; --i) bits = bits << 8 | static_cast<unsigned char>(bytes[i]);
+    float value;
+    std::memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+}  // namespace
+
+DetectionFile read_detections(const std::string &path, const DetectionOptions &options) {
+    const std::string text = read_file(path);
+    const bool with_embeddings = !options.embeddings.empty();
+    const std::string raw = with_embeddings ? read_file(options.embeddings) : std::string();
+    const std::size_t row_bytes = static_cast<std::size_t>(options.dimension) * 4;
+
+    DetectionFile file;
+    std::size_t rows = 0;
+    for_each_line(text, [&](long number, std::string_view line) {
+        const ParsedRow row = parse_detection(path, number, line, options.normalise_scores);
+        const std::size_t offset = rows++ * row_bytes;
+        file.last_frame = std::max(file.last_frame, row.frame);
+        if (options.min_score && row.detection.score < *options.min_score) return;
+        FrameRows &frame = file.frames[row.frame];
+        frame.detections.push_back(row.detection);
+        // A file that is too short is reported below, with both counts.
+        if (!with_embeddings || offset + row_bytes > raw.size()) return;
+        for (int i = 0; i < options.dimension; ++i) {
+            frame.embeddings.push_back(little_endian_float(raw.data() + offset + i * 4));
+        }
+    });
+    if (with_embeddings && raw.size() != rows * row_bytes) {
+        throw UserError(options.embeddings + ": holds " + std::to_string(raw.size()) + " bytes, but " +
+                        std::to_string(rows) + " rows of " + path + " times --dim " +
+                        std::to_string(options.dimension) + " times 4 bytes are " + std::to_string(rows * row_bytes));
+    }
+    return file;
+}
+
+std::vector<Affine> read_camera_motion(const std::string &path) {
+    const std::string text = read_file(path);
+    std::vector<Affine> motions;
+    for_each_line(text, [&](long number, std::string_view line) {
+        const auto fields = split_blanks(line);
+        if (fields.size() != 7) {
+            bad_row(path, number,
+                    "expected a frame number and 6 numbers of a 2x3 matrix, found " + std::to_string(fields.size()) +
+                        " fields");
+        }
+        Affine motion{};
+        for (std::size_t i = 0; i < 7; ++i) {
+            const auto value = parse_number(fields[i]);
+            if (!value) bad_row(path, number, quoted(fields[i]) + " is not a finite number");
+            if (i > 0) motion[i - 1] = *value;
+        }
+        motions.push_back(motion);
+    });
+    return motions;
+}
+
+RowWriter::RowWriter(const std::string &path) : path_(path == "-" ? "stdout" : path), file_(stdout) {
+    if (path == "-") return;
+    file_ = std::fopen(path.c_str(), "w");
+    if (!file_) throw UserError(path + ": cannot be written: " + std::strerror(errno));
+}
+
+RowWriter::~RowWriter() {
+    if (file_ && file_ != stdout) std::fclose(file_);
+}
+
+void RowWriter::write_tracks(long frame, std::vector<TrackRow> rows) {
+    std::sort(rows.begin(), rows.end(), [](const TrackRow &a, const TrackRow &b) { return a.id < b.id; });
+    for (const TrackRow &r : rows) {
+        std::fprintf(file_, "%ld,%llu,%.6f,%.6f,%.6f,%.6f,%.6f,-1,-1,-1\n", frame,
+                     static_cast<unsigned long long>(r.id), r.left, r.top, r.width, r.height, r.score);
+    }
+}
+
+void RowWriter::write_detections(long frame, const std::vector<DetectionRow> &rows) {
+    for (const DetectionRow &r : rows) {
+        std::fprintf(file_, "%ld,-1,%.6f,%.6f,%.6f,%.6f,%.6f,-1,-1,-1\n", frame, r.left, r.top, r.width, r.height,
+                     r.score);
+    }
+}
+
+void RowWriter::close() {
+    if (!file_) return;
+    bool failed = std::fflush(file_) != 0 || std::ferror(file_) != 0;
+    if (file_ != stdout) failed = std::fclose(file_) != 0 || failed;
+    file_ = nullptr;
+    if (failed) throw UserError(path_ + ": cannot be written: " + std::strerror(errno));
+}
+
+}  // namespace gt2_mot

@@ -1,0 +1,85 @@
+// The text and binary files around a tracking run: detections, camera motion, embeddings, and the result.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gt2_mot {
+
+/// A detection: box in pixels, score in [0, 1].
+struct DetectionRow {
+    double left, top, width, height, score;
+};
+
+/// Row-major 2x3 affine map from the previous frame to this one.
+using Affine = std::array<double, 6>;
+
+/// One frame's share of a detections file.
+struct FrameRows {
+    std::vector<DetectionRow> detections;
+    /// `dimension` numbers per detection, in their order; empty without embeddings.
+    std::vector<float> embeddings;
+};
+
+/// A detections file, by frame.
+struct DetectionFile {
+    std::map<long, FrameRows> frames;
+    long last_frame = 0;
+};
+
+/// How to read a detections file.
+struct DetectionOptions {
+    /// Rows with a lower score are dropped, together with their embeddings.
+    std::optional<double> min_score;
+    /// Squash scores of any range into (0, 1) by 1 / (1 + exp(-score)), before `min_score` is applied.
+    bool normalise_scores = false;
+    /// Raw little-endian f32, one row of `dimension` numbers per row of the file; empty for none.
+    std::string embeddings;
+    int dimension = 0;
+};
+
+/// The highest frame number accepted: a typing error must not become a day of empty steps.
+constexpr long max_frame = 10'000'000;
+
+/// Reads MOTChallenge rows `frame,id,left,top,width,height,score,...`, in any order of frames; blank lines are
+/// skipped. Throws `UserError` with the line number and the reason for a bad row.
+DetectionFile read_detections(const std::string &path, const DetectionOptions &options);
+
+/// Reads camera motion: line k holds a frame number and the six numbers of frame k, separated by blanks, tabs or
+/// commas. The order of the lines counts, not the number: files count from 0 or from 1.
+std::vector<Affine> read_camera_motion(const std::string &path);
+
+/// One row of a result.
+struct TrackRow {
+    std::uint64_t id;
+    double left, top, width, height, score;
+};
+
+/// Writes MOTChallenge rows to a file, or to stdout for "-".
+class RowWriter {
+public:
+    explicit RowWriter(const std::string &path);
+    ~RowWriter();
+    RowWriter(const RowWriter &) = delete;
+    RowWriter &operator=(const RowWriter &) = delete;
+
+    /// Writes one frame's tracks, sorted by id.
+    void write_tracks(long frame, std::vector<TrackRow> rows);
+
+    /// Writes one frame's detections, in their order; their id is -1.
+    void write_detections(long frame, const std::vector<DetectionRow> &rows);
+
+    /// Flushes and closes. Throws `UserError` if anything could not be written, as when the disk is full.
+    void close();
+
+private:
+    std::string path_;
+    std::FILE *file_;
+};
+
+}  // namespace gt2_mot

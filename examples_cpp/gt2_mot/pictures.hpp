@@ -1,0 +1,49 @@
+// Files made of annotated frames: a video, and a contact sheet of six.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <opencv2/videoio.hpp>
+#include <string>
+#include <vector>
+
+namespace gt2_mot {
+
+/// Writes a video in the best format that this OpenCV can write and most players can play.
+class VideoFile {
+public:
+    VideoFile(std::string path, double frame_rate) : path_(std::move(path)), frame_rate_(frame_rate) {}
+
+    /// Appends a frame; the first opens the file. Throws `UserError` if the file cannot be written.
+    void add(const cv::Mat &image);
+
+private:
+    void open(const cv::Size &size);
+
+    std::string path_;
+    double frame_rate_;
+    cv::VideoWriter writer_;
+};
+
+/// Two rows of three frames, each 640 pixels wide.
+class ContactSheet {
+public:
+    static constexpr int columns = 3, rows = 2;
+
+    /// Collects the frames of those numbers.
+    ContactSheet(std::string path, std::vector<long> frames) : path_(std::move(path)), frames_(std::move(frames)) {}
+
+    /// Frame numbers spread evenly over a run of that length.
+    static std::vector<long> spread_over(long frames);
+
+    void add(long frame, const cv::Mat &image);
+
+    /// Writes the picture. Throws `UserError` if that fails.
+    void write() const;
+
+private:
+    std::string path_;
+    std::vector<long> frames_;
+    std::vector<cv::Mat> tiles_;
+};
+
+}  // namespace gt2_mot

@@ -1,0 +1,309 @@
+"""Runs gt2_mot as a user does: right results, and one clear line for everything that is wrong.
+
+usage: gt2_mot_test.py PROGRAM
+"""
+import os
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = os.path.abspath(sys.argv.pop(1))
+
+
+def walk(frames):
+    """Three people walking apart from each other, 10 px higher than each other and never less than 150 px apart:
+    (frame, person, left, top, width, height, score)."""
+    rows = []
+    for frame in range(1, frames + 1):
+        for person in range(3):
+            rows.append((frame, person, 50 + 200 * person + 2 * frame, 100 + 10 * person, 40, 100, 0.9))
+    return rows
+
+
+def text_of(rows):
+    return "".join(f"{f},-1,{x},{y},{w},{h},{s},-1,-1,-1\n" for f, _, x, y, w, h, s in rows)
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.directory = tempfile.TemporaryDirectory()
+        self.addCleanup(self.directory.cleanup)
+
+    def file(self, name, content):
+        path = os.path.join(self.directory.name, name)
+        with open(path, "wb" if isinstance(content, bytes) else "w") as file:
+            file.write(content)
+        return path
+
+    def path(self, name):
+        return os.path.join(self.directory.name, name)
+
+    def run_program(self, *arguments):
+        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
+
+    def tracks(self, *arguments):
+        """Rows that the program writes to stdout."""
+        done = self.run_program("--tracker", "gentrack2", "--out", "-", *arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stderr, "", "nothing but results, and no progress in a pipe")
+        return done.stdout
+
+    def refused(self, expected, *arguments):
+        """The program must fail with exactly one line on stderr, containing `expected`, and write no track."""
+        done = self.run_program(*arguments)
+        self.assertEqual(done.returncode, 1, done)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertIn(expected, done.stderr)
+        self.assertEqual(done.stdout, "")
+
+    def refused_det(self, expected, text, *arguments):
+        det = self.file("bad.txt", text)
+        self.refused(expected, "--tracker", "gentrack2", "--det", det, "--out", "-", *arguments)
+
+
+class Results(Case):
+    def test_people_keep_their_identity_and_place(self):
+        det = self.file("det.txt", text_of(walk(30)))
+        rows = [line.split(",") for line in self.tracks("--det", det).splitlines()]
+        keys = [(int(r[0]), int(r[1])) for r in rows]
+        self.assertEqual(keys, sorted(keys), "by frame, then by id")
+        self.assertEqual(len(set(keys)), len(keys))
+        self.assertTrue(all(len(r) == 10 and r[7:] == ["-1"] * 3 for r in rows))
+        self.assertTrue(all(len(x.split(".")[1]) >= 6 for r in rows for x in r[2:7]), "six decimals")
+        # By the 10th frame everyone is known; from then on each of the three has the same id, near the detection.
+        truth = {(f, p): (x, y) for f, p, x, y, *_ in walk(30)}
+        ids = {}
+        for row in rows:
+            frame, left, top = int(row[0]), float(row[2]), float(row[3])
+            if frame < 10:
+                continue
+            person = min(range(3), key=lambda p: abs(left - truth[frame, p][0]))
+            self.assertLess(abs(left - truth[frame, person][0]), 5)
+            self.assertLess(abs(top - truth[frame, person][1]), 5)
+            ids.setdefault(person, []).append(row[1])
+        self.assertEqual({p: (len(set(i)), len(i)) for p, i in ids.items()}, {0: (1, 21), 1: (1, 21), 2: (1, 21)})
+
+    def test_order_of_rows_and_missing_frames(self):
+        """Rows may come in any order of frames, frames may be missing, lines may be blank or end as on Windows."""
+        rows = [r for r in walk(20) if r[0] not in (12, 13)]
+        det = self.file("det.txt", text_of(rows))
+        shuffled = self.file("shuffled.txt", "\n" + text_of(rows[30:] + rows[:30]).replace("\n", "\r\n"))
+        self.assertEqual(self.tracks("--det", det), self.tracks("--det", shuffled))
+
+    def test_number_of_frames(self):
+        det = self.file("det.txt", text_of(walk(20)))
+        last = lambda text: max(int(line.split(",")[0]) for line in text.splitlines())
+        self.assertEqual(last(self.tracks("--det", det)), 20)
+        self.assertEqual(last(self.tracks("--det", det, "--frames", 15)), 15)
+        steps = lambda *more: self.run_program(
+            "--tracker", "gentrack2", "--det", det, "--out", os.devnull, "--time", *more).stderr
+        self.assertIn("steps 20,", steps())
+        self.assertIn("steps 35,", steps("--frames", 35))
+        gmc = self.file("gmc.txt", "".join(f"{k} 1 0 0 0 1 0\n" for k in range(27)))
+        self.assertIn("steps 27,", steps("--gmc", gmc))
+
+    def test_time_is_one_line_of_the_tracker_alone(self):
+        det = self.file("det.txt", text_of(walk(20)))
+        done = self.run_program("--tracker", "gentrack2", "--det", det, "--out", os.devnull, "--time")
+        self.assertRegex(done.stderr,
+                         r"^steps 20, total [\d.]+ ms, mean [\d.]+ us, median [\d.]+ us, p99 [\d.]+ us\n$")
+
+    def test_same_run_same_bytes(self):
+        det = self.file("det.txt", text_of(walk(40)))
+        first, second = self.tracks("--det", det, "--seed", 5), self.tracks("--det", det, "--seed", 5)
+        self.assertTrue(first)
+        self.assertEqual(first, second)
+        done = self.run_program("--tracker", "gentrack2", "--det", det, "--seed", 5, "--out", self.path("out.txt"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.path("out.txt")) as file:
+            self.assertEqual(file.read(), first, "--out FILE and --out - are the same")
+
+    def test_min_score_drops_rows_and_their_embeddings_together(self):
+        rows = walk(20)
+        low = [(f, p, x + 75, y, w, h, 0.3) for f, p, x, y, w, h, _ in rows]
+        mixed = [r for pair in zip(low, rows) for r in pair]
+        right, wrong = struct.pack("<2f", 1.0, 0.0), struct.pack("<2f", 0.0, 1.0)
+        clean = self.tracks("--det", self.file("clean.txt", text_of(rows)), "--dim", 2,
+                            "--embeddings", self.file("clean.f32", right * len(rows)))
+        filtered = self.tracks("--det", self.file("mixed.txt", text_of(mixed)), "--dim", 2, "--min-score", 0.5,
+                               "--embeddings", self.file("mixed.f32", (wrong + right) * len(rows)))
+        self.assertTrue(clean)
+        self.assertEqual(clean, filtered)
+
+    def test_normalised_scores(self):
+        """1 / (1 + exp(-ln 9)) = 0.9."""
+        rows = walk(20)
+        det = self.file("det.txt", text_of(rows))
+        wide = self.file("wide.txt", text_of([(*r[:6], "2.1972245773362196") for r in rows]))
+        self.assertEqual(self.tracks("--det", det), self.tracks("--det", wide, "--normalise-scores"))
+
+    def test_saved_detections_are_what_the_tracker_got(self):
+        det = self.file("det.txt", text_of(walk(5)))
+        self.tracks("--det", det, "--save-det", self.path("saved.txt"))
+        with open(self.path("saved.txt")) as file:
+            saved = [tuple(map(float, line.split(","))) for line in file]
+        self.assertEqual(saved, [(f, -1, x, y, w, h, s, -1, -1, -1) for f, _, x, y, w, h, s in walk(5)])
+
+    def test_settings_and_their_order(self):
+        """--config, then --set, then --seed and --fps; a birth score of 1 leaves no track."""
+        det = self.file("det.txt", text_of(walk(20)))
+        plain = self.tracks("--det", det)
+        self.assertEqual(self.tracks("--det", det, "--set", "birth_score=1"), "")
+        never = self.file("never.toml", "birth_score = 1.0\n")
+        self.assertEqual(self.tracks("--det", det, "--config", never), "")
+        self.assertEqual(self.tracks("--det", det, "--config", never, "--set", "birth_score=0.7"), plain)
+        # A shift of the first id is visible without looking at a single box.
+        first = lambda text: text.split(",")[1]
+        self.assertEqual(first(self.tracks("--det", det, "--set", "first_id=7", "--set", "first_id=9")), "9")
+        slow = self.tracks("--det", det, "--fps", 2)
+        self.assertEqual(self.tracks("--det", det, "--set", "frame_rate=2"), slow)
+        self.assertEqual(self.tracks("--det", det, "--set", "frame_rate=25", "--fps", 2), slow)
+        self.assertEqual(self.tracks("--det", det, "--set", "seed=3", "--seed", 4),
+                         self.tracks("--det", det, "--set", "seed=4"))
+
+    def test_all_states_adds_rows(self):
+        """Someone seen once is tentative: not written, unless asked for."""
+        det = self.file("det.txt", text_of(walk(20) + [(15, 9, 900, 300, 40, 100, 0.95)]))
+        usual, everything = self.tracks("--det", det), self.tracks("--det", det, "--all-states")
+        at = lambda text: [l for l in text.splitlines() if l.startswith("15,") and abs(float(l.split(",")[2]) - 900) < 1]
+        self.assertEqual((len(at(usual)), len(at(everything))), (0, 1))
+
+    def test_drawing_without_images(self):
+        det = self.file("det.txt", text_of(walk(12)))
+        self.tracks("--det", det, "--size", "768x576", "--annotate", self.path("a.avi"), "--particles",
+                    "--sheet", self.path("a.png"))
+        self.assertGreater(os.path.getsize(self.path("a.avi")), 1000)
+        with open(self.path("a.png"), "rb") as file:
+            header = file.read(24)
+        # Three tiles of 640x480 and four gaps of 6; two tiles and three gaps.
+        self.assertEqual(struct.unpack(">2I", header[16:]), (3 * 640 + 4 * 6, 2 * 480 + 3 * 6))
+
+
+class Mistakes(Case):
+    good = "1,-1,10,10,20,40,0.9,-1,-1,-1\n"
+
+    def test_bad_rows_name_line_and_reason(self):
+        for row, reason in (
+            ("2,-1,10,10,20,40", "expected at least 7 fields frame,id,left,top,width,height,score, found 6"),
+            ("0,-1,10,10,20,40,0.9", 'frame "0" is not an integer in 1..10000000'),
+            ("1.5,-1,10,10,20,40,0.9", 'frame "1.5" is not an integer'),
+            ("1e9,-1,10,10,20,40,0.9", 'frame "1e9" is not an integer in'),
+            ("2,-1,ten,10,20,40,0.9", 'left "ten" is not a finite number'),
+            ("2,-1,10,nan,20,40,0.9", 'top "nan" is not a finite number'),
+            ("2,-1,10,10,inf,40,0.9", 'width "inf" is not a finite number'),
+            ("2,-1,10,10,0,40,0.9", 'width "0" is not above 0'),
+            ("2,-1,10,10,20,-4,0.9", 'height "-4" is not above 0'),
+            ("2,-1,10,10,20,40,", 'score "" is not a finite number'),
+            ("2,-1,10,10,20,40,3.1", 'score "3.1" is outside 0..1 (--normalise-scores'),
+            ("2,-1,10,10,20,40,-0.1", 'score "-0.1" is outside 0..1'),
+        ):
+            with self.subTest(row=row):
+                self.refused_det(f"bad.txt:3: {reason}", self.good + "\n" + row + "\n" + self.good)
+
+    def test_bad_camera_motion(self):
+        for line, reason in (("2 1 0 0 0 1", "found 6 fields"), ("2 1 0 x 0 1 0", '"x" is not a finite number')):
+            with self.subTest(line=line):
+                gmc = self.file("gmc.txt", "1\t1\t0\t0\t0\t1\t0\t\n" + line + "\n")
+                self.refused_det("gmc.txt:2: ", self.good, "--gmc", gmc)
+                self.refused_det(reason, self.good, "--gmc", gmc)
+
+    def test_embeddings_must_fit(self):
+        embeddings = self.file("e.f32", bytes(4 * 3))
+        self.refused_det("e.f32: holds 12 bytes, but 1 rows of", self.good, "--embeddings", embeddings, "--dim", 4)
+        embeddings = self.file("e.f32", bytes(4 * 5))
+        self.refused_det("are 16", self.good, "--embeddings", embeddings, "--dim", 4)
+        self.refused_det("--embeddings and --dim need each other", self.good, "--embeddings", embeddings)
+
+    def test_missing_files(self):
+        gone = self.path("gone")
+        base = ("--tracker", "gentrack2", "--out", "-")
+        self.refused("gone: No such file or directory", *base, "--det", gone)
+        self.refused("is a directory", *base, "--det", self.directory.name)
+        for option in ("--gmc", "--config"):
+            with self.subTest(option=option):
+                self.refused_det("gone: No such file or directory", self.good, option, gone)
+        self.refused_det("gone: no such file", self.good, "--video", gone)
+        self.refused_det("gone: no such directory", self.good, "--images", gone)
+        self.refused_det("holds no images", self.good, "--images", self.directory.name)
+        self.refused_det("text.avi: OpenCV cannot open this as a video", self.good,
+                         "--video", self.file("text.avi", "no video"))
+        self.refused("gone: No such file or directory", *base, "--detector", f"onnx:{gone}",
+                     "--images", self.images(1))
+
+    def images(self, count):
+        directory = self.path("images")
+        os.makedirs(directory, exist_ok=True)
+        for k in range(count):
+            self.file(f"images/{k:03}.pgm", b"P5 64 48 255\n" + bytes([k]) * (64 * 48))
+        return directory
+
+    def test_images_that_end_too_soon(self):
+        images = self.images(3)
+        self.refused_end("images: ends after 3 frames, but --frames asks for 4", images, walk(3), "--frames", 4)
+        self.refused_end("has detections up to frame 5", images, walk(5))
+
+    def refused_end(self, expected, images, rows, *arguments):
+        det = self.file("det.txt", text_of(rows))
+        done = self.run_program("--tracker", "gentrack2", "--det", det, "--images", images, "--out", os.devnull,
+                                *arguments)
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done)
+        self.assertIn(expected, done.stderr)
+
+    def test_unreadable_image(self):
+        images = self.images(2)
+        self.file("images/001.pgm", "no image")
+        self.refused_end("001.pgm: OpenCV cannot read this image", images, walk(2))
+
+    def test_unknown_names(self):
+        det = self.file("det.txt", self.good)
+        self.refused("magic", "--tracker", "magic", "--det", det, "--out", "-")
+        self.refused_det("no_such_key", self.good, "--set", "no_such_key=1")
+        self.refused_det("birth_score", self.good, "--set", "birth_score=1.5")
+        self.refused_det("birth_score", self.good, "--set", "birth_score=high")
+        self.refused_det("bad.toml", self.good, "--config", self.file("bad.toml", "particles = 4\n\nlambda_p = = 2\n"))
+        self.refused_det("line 3", self.good, "--config", self.path("bad.toml"))
+        self.refused_det("seed", self.good, "--seed", "x")
+        self.refused_det("frame_rate", self.good, "--fps", 0)
+        self.refused("--detector yolo: expected hog or onnx:FILE", "--tracker", "gentrack2", "--out", "-",
+                     "--detector", "yolo", "--images", self.images(1))
+
+    def test_command_line(self):
+        det = self.file("det.txt", self.good)
+        base = ("--tracker", "gentrack2", "--det", det, "--out", "-")
+        for expected, arguments in (
+            ("--tracker is missing", ()),
+            ("give either --det or --detector", ("--tracker", "gentrack2", "--out", "-")),
+            ("give either --det or --detector", (*base, "--detector", "hog")),
+            ("--out is missing", ("--tracker", "gentrack2", "--det", det)),
+            ("unknown option --size=3x4", (*base, "--size=3x4")),
+            ("--size 3: expected WIDTHxHEIGHT", (*base, "--size", "3")),
+            ("--size 0x4: expected", (*base, "--size", "0x4")),
+            ("--frames 0: expected an integer in 1..", (*base, "--frames", "0")),
+            ("--min-score 2: expected a number in 0..1", (*base, "--min-score", "2")),
+            ("--set a: expected KEY=VALUE", (*base, "--set", "a")),
+            ("--seed needs a value", (*base, "--seed")),
+            ("--detector needs --video or --images", ("--tracker", "gentrack2", "--detector", "hog", "--out", "-")),
+            ("drawing needs --video, --images or --size", (*base, "--annotate", self.path("a.avi"))),
+        ):
+            with self.subTest(arguments=arguments):
+                self.refused(expected, *arguments)
+
+    def test_unwritable_results(self):
+        det = self.file("det.txt", text_of(walk(20)))
+        base = ("--tracker", "gentrack2", "--det", det)
+        self.refused("cannot be written", *base, "--out", self.path("no/such/directory/out.txt"))
+        if os.path.exists("/dev/full"):
+            self.refused("/dev/full: cannot be written", *base, "--out", "/dev/full")
+        self.refused("cannot write this as a video", *base, "--out", os.devnull, "--size", "64x48",
+                     "--annotate", self.path("no/such/a.avi"))
+
+    def test_help(self):
+        done = self.run_program("--help")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("usage: gt2_mot --tracker NAME", done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=1)
