@@ -1,0 +1,125 @@
+#include "session.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include "gentrack2.h"
+#include "gentrack2_opencv.hpp"
+#include "text.hpp"
+
+namespace gt2_mot {
+namespace {
+
+struct Release {
+    void operator()(gt2_config *config) const { gt2_config_free(config); }
+    void operator()(gt2_tracker *tracker) const { gt2_tracker_free(tracker); }
+};
+
+void check(gt2_status status, const std::string &place = "") {
+    if (status != GT2_OK) throw UserError(place + gt2_last_error_message());
+}
+
+std::string text_of(double number) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.17g", number);
+    return text;
+}
+
+void set(gt2_config *config, const std::string &key, const std::string &value, const std::string &place) {
+    check(gt2_config_set(config, key.c_str(), value.c_str()), place + ": ");
+}
+
+void load(gt2_config *config, const std::string &path, const std::string &tracker) {
+    const std::string text = read_file(path);
+    check(gt2_config_load_toml(config, text.data(), text.size()), path + ": ");
+    const std::string algorithm = gt2_config_algorithm(config);
+    if (algorithm != tracker) throw UserError(path + ": is for " + algorithm + ", but --tracker is " + tracker);
+}
+
+}  // namespace
+
+struct Session::Parts {
+    std::unique_ptr<gt2_config, Release> config;
+    std::unique_ptr<gt2_tracker, Release> tracker;
+    std::vector<gt2_detection> detections;
+};
+
+Session::Session(const Options &o, double video_rate) : parts_(std::make_unique<Parts>()) {
+    gt2_config *config = nullptr;
+    check(gt2_config_new(o.tracker.c_str(), &config), "--tracker: ");
+    parts_->config.reset(config);
+    if (video_rate > 0) set(config, "frame_rate", text_of(video_rate), o.video);
+    if (!o.config.empty()) load(config, o.config, o.tracker);
+    for (const auto &[key, value] : o.set) set(config, key, value, "--set " + key + "=" + value);
+    if (o.seed) set(config, "seed", *o.seed, "--seed");
+    if (o.fps) set(config, "frame_rate", text_of(*o.fps), "--fps");
+    gt2_tracker *tracker = nullptr;
+    check(gt2_tracker_new(config, &tracker));
+    parts_->tracker.reset(tracker);
+}
+
+Session::~Session() = default;
+
+void Session::step(const FrameInput &input, StepTimes &times) {
+    auto &detections = parts_->detections;
+    detections.clear();
+    for (const DetectionRow &r : input.rows->detections) {
+        detections.push_back(gentrack2::detection(cv::Rect2d(r.left, r.top, r.width, r.height), r.score));
+    }
+    gt2_frame frame = GT2_FRAME_INIT;
+    frame.detections = detections.data();
+    frame.detection_count = detections.size();
+    if (!input.rows->embeddings.empty()) {
+        frame.embeddings = input.rows->embeddings.data();
+        frame.embedding_dimension = static_cast<std::size_t>(input.dimension);
+    }
+    gt2_image image = GT2_IMAGE_INIT;
+    if (!input.image.empty()) {
+        image = gentrack2::image_view(input.image);
+        frame.image = &image;
+    } else if (input.size) {
+        frame.image_width = static_cast<std::uint32_t>(input.size->width);
+        frame.image_height = static_cast<std::uint32_t>(input.size->height);
+    }
+    if (input.motion) frame.camera_motion = input.motion->data();
+
+    const auto start = StepTimes::Clock::now();
+    const gt2_status status = gt2_tracker_step(parts_->tracker.get(), &frame);
+    times.add(StepTimes::Clock::now() - start);
+    check(status);
+}
+
+std::vector<TrackedObject> Session::tracks(bool all) const {
+    std::vector<TrackedObject> objects;
+    for (const std::int32_t kind : {GT2_TRACKS_REPORTED, GT2_TRACKS_TENTATIVE, GT2_TRACKS_LOST}) {
+        if (kind != GT2_TRACKS_REPORTED && !all) break;
+        gt2_track_list list = GT2_TRACK_LIST_INIT;
+        check(gt2_tracker_tracks(parts_->tracker.get(), kind, &list));
+        for (std::size_t i = 0; i < list.count; ++i) {
+            const gt2_track &t = *gt2_track_at(&list, i);
+            const TrackState state = t.state == GT2_TRACK_CONFIRMED ? TrackState::confirmed
+                                     : t.state == GT2_TRACK_LOST    ? TrackState::lost
+                                                                    : TrackState::tentative;
+            objects.push_back({{t.id, t.left, t.top, t.width, t.height, t.score}, state, kind == GT2_TRACKS_REPORTED,
+                               t.detection_index >= 0});
+        }
+    }
+    return objects;
+}
+
+std::vector<cv::Rect2d> Session::particles(std::uint64_t id) const {
+    gt2_particle_list list = GT2_PARTICLE_LIST_INIT;
+    check(gt2_tracker_particles(parts_->tracker.get(), id, &list));
+    std::vector<cv::Rect2d> boxes;
+    for (std::size_t i = 0; i < list.count; ++i) boxes.push_back(gentrack2::rect(*gt2_particle_at(&list, i)));
+    return boxes;
+}
+
+double Session::frame_rate() const {
+    double rate = 0.0;
+    check(gt2_config_get_number(parts_->config.get(), "frame_rate", &rate));
+    return rate;
+}
+
+}  // namespace gt2_mot
