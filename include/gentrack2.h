@@ -627,6 +627,9 @@ gt2_status gt2_tracker_particles(const struct gt2_tracker *tracker,
 
 #endif  /* GENTRACK2_H */
 
+#ifndef GENTRACK2_H_HELPERS
+#define GENTRACK2_H_HELPERS
+
 /// Initial values of a `gt2_image`.
 #define GT2_IMAGE_INIT {sizeof(gt2_image), NULL, 0, 0, 0, GT2_PIXEL_GRAY8, 0}
 
@@ -652,3 +655,5 @@ static inline const gt2_track *gt2_track_at(const gt2_track_list *list, size_t i
 static inline const gt2_particle *gt2_particle_at(const gt2_particle_list *list, size_t index) {
     return (const gt2_particle *)(const void *)((const char *)list->particles + index * list->stride);
 }
+
+#endif /* GENTRACK2_H_HELPERS */
