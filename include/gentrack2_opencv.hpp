@@ -1,9 +1,11 @@
 /*
  * gentrack2_opencv.hpp: OpenCV's images and boxes for gentrack2. Header-only, C++11, the only file that knows OpenCV.
  *
- *     gt2_image image = gentrack2::image_view(mat);          // no copy: `mat` must live through gt2_tracker_step
+ *     gt2_image view = gentrack2::image(mat);                // no copy: `mat` must live until the step is done
  *     gt2_detection d = gentrack2::detection(rect, 0.9);     // from any cv::Rect_
- *     cv::Rect2d box = gentrack2::rect(*gt2_track_at(&tracks, 0));
+ *     cv::Rect2d box = gentrack2::rect(track);               // from a track, detection or particle
+ *
+ * It goes with gentrack2.h alone as well as with gentrack2.hpp.
  */
 #ifndef GENTRACK2_OPENCV_HPP
 #define GENTRACK2_OPENCV_HPP
@@ -21,10 +23,10 @@ namespace gentrack2 {
 /// A view of an 8-bit image: CV_8UC1 as grey, CV_8UC3 as BGR and CV_8UC4 as BGRA, the orders of cv::imread and
 /// cv::VideoCapture. Regions of interest are fine. The pixels are not copied, so the matrix must outlive the call that
 /// the view is for. Throws std::invalid_argument for an empty matrix or any other type.
-inline gt2_image image_view(const cv::Mat &mat) {
-    if (mat.empty()) throw std::invalid_argument("gentrack2::image_view: the matrix is empty");
+inline gt2_image image(const cv::Mat &mat) {
+    if (mat.empty()) throw std::invalid_argument("gentrack2::image: the matrix is empty");
     if (mat.dims != 2) {
-        throw std::invalid_argument("gentrack2::image_view: the matrix has " + std::to_string(mat.dims) +
+        throw std::invalid_argument("gentrack2::image: the matrix has " + std::to_string(mat.dims) +
                                     " dimensions, must have 2");
     }
     gt2_image view = GT2_IMAGE_INIT;
@@ -33,7 +35,7 @@ inline gt2_image image_view(const cv::Mat &mat) {
         case CV_8UC3: view.format = GT2_PIXEL_BGR24; break;
         case CV_8UC4: view.format = GT2_PIXEL_BGRA32; break;
         default:
-            throw std::invalid_argument("gentrack2::image_view: the matrix has " + std::to_string(mat.channels()) +
+            throw std::invalid_argument("gentrack2::image: the matrix has " + std::to_string(mat.channels()) +
                                         " channels of depth " + std::to_string(mat.depth()) +
                                         ", must be CV_8UC1, CV_8UC3 or CV_8UC4");
     }

@@ -82,7 +82,7 @@ DetectionFile read_detections(const std::string &path, const DetectionOptions &o
         const ParsedRow row = parse_detection(path, number, line, options.normalise_scores);
         const std::size_t offset = rows++ * row_bytes;
         file.last_frame = std::max(file.last_frame, row.frame);
-        if (options.min_score && row.detection.score < *options.min_score) return;
+        if (!options.filter.passes(row.detection)) return;
         FrameRows &frame = file.frames[row.frame];
         frame.detections.push_back(row.detection);
         // A file that is too short is reported below, with both counts.

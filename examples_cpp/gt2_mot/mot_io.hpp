@@ -32,11 +32,20 @@ struct DetectionFile {
     long last_frame = 0;
 };
 
+/// Which detections the tracker is to see.
+struct DetectionFilter {
+    std::optional<double> min_score, max_height;
+
+    bool passes(const DetectionRow &row) const {
+        return !(min_score && row.score < *min_score) && !(max_height && row.height > *max_height);
+    }
+};
+
 /// How to read a detections file.
 struct DetectionOptions {
-    /// Rows with a lower score are dropped, together with their embeddings.
-    std::optional<double> min_score;
-    /// Squash scores of any range into (0, 1) by 1 / (1 + exp(-score)), before `min_score` is applied.
+    /// Other rows are dropped, together with their embeddings.
+    DetectionFilter filter;
+    /// Squash scores of any range into (0, 1) by 1 / (1 + exp(-score)), before the filter is applied.
     bool normalise_scores = false;
     /// Raw little-endian f32, one row of `dimension` numbers per row of the file; empty for none.
     std::string embeddings;

@@ -25,6 +25,7 @@ Tracks the objects of a video or of a file of detections and writes MOTChallenge
   --embeddings FILE    raw little-endian f32, one row per row of --det; needs --dim
   --dim N              numbers per embedding
   --min-score S        drop detections below S before the tracker sees them
+  --max-height H       drop detections taller than H pixels, where nobody can be so near
   --normalise-scores   first squash the scores of --det, of any range, by 1 / (1 + exp(-score))
   --size WxH           size of the frames in pixels, where there are none to look at
   --fps F              frames per second; by default that of --video, else the tracker's default
@@ -156,6 +157,7 @@ Options parse_options(const std::vector<std::string> &arguments) {
         {"--embeddings", [&] { o.embeddings = r.value(); }},
         {"--dim", [&] { o.dimension = static_cast<int>(r.integer(1, 65536)); }},
         {"--min-score", [&] { o.min_score = r.number(0, 1, "a number in 0..1"); }},
+        {"--max-height", [&] { o.max_height = r.number(0, 1e6, "a number of pixels"); }},
         {"--normalise-scores", [&] { o.normalise_scores = true; }},
         {"--size", [&] { o.size = r.size(); }},
         {"--fps", [&] { o.fps = r.number(0, 1e6, "a number of frames per second"); }},

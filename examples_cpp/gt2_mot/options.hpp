@@ -18,7 +18,7 @@ struct Options {
     std::string gmc;
     std::string embeddings;
     int dimension = 0;
-    std::optional<double> min_score;
+    std::optional<double> min_score, max_height;
     bool normalise_scores = false;
     std::optional<cv::Size> size;
     std::optional<double> fps;

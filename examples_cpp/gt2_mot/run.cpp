@@ -22,12 +22,13 @@ namespace {
 /// Everything a run reads.
 struct Inputs {
     FrameSource source;
+    DetectionFilter filter;
     DetectionFile file;
     std::vector<Affine> motions;
     std::unique_ptr<Detector> detector;
 
-    explicit Inputs(const Options &o) : source(o) {
-        if (!o.det.empty()) file = read_detections(o.det, {o.min_score, o.normalise_scores, o.embeddings, o.dimension});
+    explicit Inputs(const Options &o) : source(o), filter{o.min_score, o.max_height} {
+        if (!o.det.empty()) file = read_detections(o.det, {filter, o.normalise_scores, o.embeddings, o.dimension});
         if (!o.gmc.empty()) motions = read_camera_motion(o.gmc);
         if (!o.detector.empty()) detector = make_detector(o.detector);
     }
@@ -89,15 +90,15 @@ private:
 };
 
 /// The detections of a frame: found in the image or looked up.
-FrameRows rows_of(long frame, const cv::Mat &image, Inputs &inputs, const Options &o) {
+FrameRows rows_of(long frame, const cv::Mat &image, Inputs &inputs) {
     if (!inputs.detector) {
         const auto found = inputs.file.frames.find(frame);
         return found == inputs.file.frames.end() ? FrameRows{} : std::move(found->second);
     }
     FrameRows rows{inputs.detector->detect(image), {}};
-    if (!o.min_score) return rows;
-    const auto low = [&](const DetectionRow &r) { return r.score < *o.min_score; };
-    rows.detections.erase(std::remove_if(rows.detections.begin(), rows.detections.end(), low), rows.detections.end());
+    auto &all = rows.detections;
+    const auto dropped = [&](const DetectionRow &row) { return !inputs.filter.passes(row); };
+    all.erase(std::remove_if(all.begin(), all.end(), dropped), all.end());
     return rows;
 }
 
@@ -134,7 +135,7 @@ void run(const Options &o) {
     for (cv::Mat image; length == 0 || frame <= length; ++frame) {
         if (inputs.source.has_images() && !inputs.source.read(image)) break;
         progress.at(frame);
-        const FrameRows rows = rows_of(frame, image, inputs, o);
+        const FrameRows rows = rows_of(frame, image, inputs);
         FrameInput input{&rows, o.dimension, image, o.size, std::nullopt};
         if (static_cast<std::size_t>(frame) <= inputs.motions.size()) input.motion = inputs.motions[frame - 1];
         try {

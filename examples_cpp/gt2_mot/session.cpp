@@ -76,7 +76,7 @@ void Session::step(const FrameInput &input, StepTimes &times) {
     }
     gt2_image image = GT2_IMAGE_INIT;
     if (!input.image.empty()) {
-        image = gentrack2::image_view(input.image);
+        image = gentrack2::image(input.image);
         frame.image = &image;
     } else if (input.size) {
         frame.image_width = static_cast<std::uint32_t>(input.size->width);

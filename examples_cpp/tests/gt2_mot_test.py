@@ -132,6 +132,12 @@ class Results(Case):
         self.assertTrue(clean)
         self.assertEqual(clean, filtered)
 
+    def test_max_height_drops_rows(self):
+        rows = walk(20)
+        tall = [(f, p, x + 75, y, w, h + 0.5, s) for f, p, x, y, w, h, s in rows]
+        self.assertEqual(self.tracks("--det", self.file("det.txt", text_of(rows))),
+                         self.tracks("--det", self.file("both.txt", text_of(rows + tall)), "--max-height", 100))
+
     def test_normalised_scores(self):
         """1 / (1 + exp(-ln 9)) = 0.9."""
         rows = walk(20)

@@ -3,4 +3,4 @@
 
 #include "gentrack2_opencv.hpp"
 
-unsigned format_of_grey() { return static_cast<unsigned>(gentrack2::image_view(cv::Mat::zeros(2, 3, CV_8UC1)).format); }
+unsigned format_of_grey() { return static_cast<unsigned>(gentrack2::image(cv::Mat::zeros(2, 3, CV_8UC1)).format); }

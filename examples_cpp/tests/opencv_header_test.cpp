@@ -16,7 +16,7 @@ static void check(bool holds, const char *what, int line) {
 
 static std::string refusal(const cv::Mat &mat) {
     try {
-        gentrack2::image_view(mat);
+        gentrack2::image(mat);
     } catch (const std::invalid_argument &error) {
         return error.what();
     }
@@ -25,13 +25,13 @@ static std::string refusal(const cv::Mat &mat) {
 
 static void test_views() {
     const cv::Mat whole(40, 60, CV_8UC3);
-    const gt2_image all = gentrack2::image_view(whole);
+    const gt2_image all = gentrack2::image(whole);
     CHECK(all.struct_size == sizeof(gt2_image) && all.data == whole.data && all.stride == 180);
     CHECK(all.width == 60 && all.height == 40 && all.format == GT2_PIXEL_BGR24);
     // A region of interest starts at row 5, column 7, and keeps the stride of the whole.
-    const gt2_image part = gentrack2::image_view(whole(cv::Rect(7, 5, 20, 10)));
+    const gt2_image part = gentrack2::image(whole(cv::Rect(7, 5, 20, 10)));
     CHECK(part.data == whole.data + 5 * 180 + 7 * 3 && part.stride == 180 && part.width == 20 && part.height == 10);
-    CHECK(gentrack2::image_view(cv::Mat(2, 3, CV_8UC4)).format == GT2_PIXEL_BGRA32);
+    CHECK(gentrack2::image(cv::Mat(2, 3, CV_8UC4)).format == GT2_PIXEL_BGRA32);
     CHECK(format_of_grey() == GT2_PIXEL_GRAY8);
 }
 
@@ -61,7 +61,7 @@ static void test_step() {
     gt2_config_free(config);
     cv::Mat whole(240, 320, CV_8UC3);
     cv::randu(whole, 0, 256);
-    const gt2_image image = gentrack2::image_view(whole(cv::Rect(10, 10, 300, 220)));
+    const gt2_image image = gentrack2::image(whole(cv::Rect(10, 10, 300, 220)));
     const cv::Rect2d box(100, 60, 40, 80);
     const gt2_detection detection = gentrack2::detection(box, 0.95);
     gt2_frame frame = GT2_FRAME_INIT;
