@@ -1,4 +1,4 @@
-//! Memory is bounded: nothing about an ended track is kept. Counted by the allocator itself, hence a test binary of
+//! Memory is bounded: nothing about an ended track is kept, and once warm a step allocates nothing. Counted by the allocator itself, hence a test binary of
 //! its own with a single test.
 
 // A global allocator cannot be written without.
@@ -104,7 +104,7 @@ fn run(rich: bool, marks: &[usize]) -> Readings {
 }
 
 #[test]
-fn live_bytes_do_not_grow_with_the_number_of_ended_tracks() {
+fn live_bytes_do_not_grow_and_warm_steps_do_not_allocate() {
     // Marks at the same point of the input's period, so that as many walkers are in the image.
     for (rich, marks) in [(false, [5_000, 10_000, 20_000]), (true, [500, 1_000, 2_000])] {
         let readings = run(rich, &marks);
@@ -115,6 +115,7 @@ fn live_bytes_do_not_grow_with_the_number_of_ended_tracks() {
         // A walker comes every 20 frames.
         assert!(readings.identities as usize >= marks[2] / 20, "only {} identities", readings.identities);
         let growth = readings.live[2] - readings.live[0];
+        assert_eq!(readings.allocations_per_step, 0.0, "every buffer has its size by now");
         assert!(growth <= 0, "{growth} bytes more after {marks:?} frames: {:?}", readings.live);
     }
 }

@@ -8,8 +8,8 @@ use super::contract::Contract;
 use super::driver::{Feed, tracker};
 use super::scene::{Observation, Scene};
 
-/// Frames for which a track of nothing but clutter may be shown: a birth in the first frame is trusted at once and is
-/// shown for one more frame.
+/// Frames with the detector running for which a track of nothing but clutter may be shown: a birth in the first frame
+/// is trusted at once and is shown for one more frame.
 const CLUTTER_FRAMES: usize = 2;
 /// Seconds an object has, once well in view, to be recognised as one.
 const WARM_UP: f64 = 0.5;
@@ -31,7 +31,7 @@ struct ObjectRecord {
 /// The record of one run.
 pub struct Verdict {
     objects: Vec<ObjectRecord>,
-    /// For each identity shown the number of frames, and whether it was ever on an object.
+    /// For each identity shown the number of frames with the detector running, and whether it was ever on an object.
     shown: BTreeMap<u64, (usize, bool)>,
     pub contract: Contract,
 }
@@ -51,7 +51,7 @@ impl Verdict {
         let mut on_object = vec![None; self.objects.len()];
         for track in &output.reported {
             let entry = self.shown.entry(track.id).or_default();
-            entry.0 += 1;
+            entry.0 += usize::from(detector_ran);
             if let Some(object) = track.detection_index.and_then(|row| seen.source[row]) {
                 entry.1 = true;
                 on_object[object] = Some(track);
