@@ -87,9 +87,9 @@ parameters! {
         noise_gain: f64 = 1.0, [0.0, 10.0], "", "lambda_X";
         /// Bound of the random displacement per tick: of the centre in box widths; of the size a quarter of it, in
         /// widths and heights.
-        state_noise: f64 = 0.02, [0.0, 1.0], "box widths/tick", "epsilon_X U_X^max";
+        state_noise: f64 = 0.01, [0.0, 1.0], "box widths/tick", "epsilon_X U_X^max";
         /// Bound of the random change of velocity per tick, in the same proportions.
-        velocity_noise: f64 = 0.005, [0.0, 1.0], "box widths/tick", "epsilon_V U_V^max";
+        velocity_noise: f64 = 0.0025, [0.0, 1.0], "box widths/tick", "epsilon_V U_V^max";
         /// Bound of the centre's velocity.
         max_velocity: f64 = 0.5, [0.01, 10.0], "box widths/tick", "V^max (u, v)";
         /// Bound of the size's velocity.
@@ -209,9 +209,9 @@ parameters! {
         /// Cosine between the velocities of track and neighbours from which they move together.
         delta_d: f64 = 0.95, [-1.0, 1.0], "", "delta_d";
         /// Trust of a weak track in its swarm's global best.
-        sigma_g: f64 = 0.0, [0.0, 1.0], "", "sigma_g";
+        sigma_g: f64 = 0.3, [0.0, 1.0], "", "sigma_g";
         /// Strength of the push away from neighbours that move otherwise; never more than the track's own speed.
-        epsilon_s: f64 = 0.0, [0.0, 1.0], "", "epsilon_s";
+        epsilon_s: f64 = 0.05, [0.0, 1.0], "", "epsilon_s";
         /// Age at which a weak track ends.
         max_age: f64 = 100.0, [1.0, 1e6], "ticks", "partial_max";
         /// History fitness of the global best where there is no image to tell.
