@@ -61,6 +61,12 @@ impl Tracker {
         })
     }
 
+    /// A tracker at the mercy of a test's algorithm.
+    #[cfg(test)]
+    pub(crate) fn with_algorithm(config: &Config, inner: Box<dyn TrackingAlgorithm>) -> Self {
+        Self { inner, ..Self::new(config).expect("the test's config makes a tracker") }
+    }
+
     /// The algorithm at work.
     pub fn algorithm(&self) -> Algorithm {
         self.algorithm

@@ -290,3 +290,117 @@ pub unsafe extern "C" fn gt2_tracker_particles(
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::detection::gt2_detection;
+    use super::*;
+    use crate::frame::Frame;
+    use crate::geometry::{Rect, State};
+    use crate::track::{Particle, Track, TrackState};
+    use crate::tracker::StepContext;
+    use crate::trackers::TrackingAlgorithm;
+    use std::ffi::CStr;
+
+    /// Panics in a step with two detections, half-way through its output, and when asked for particles.
+    struct Fragile;
+
+    impl TrackingAlgorithm for Fragile {
+        fn step(&mut self, frame: &Frame<'_>, context: &mut StepContext<'_>, output: &mut Output) {
+            output.reported.push(Track {
+                id: context.ids.take(),
+                rect: Rect::new(1.0, 2.0, 3.0, 4.0),
+                velocity: State::default(),
+                state: TrackState::Confirmed,
+                score: 0.5,
+                class_id: 0,
+                tag: 0,
+                detection_index: None,
+                age: 1,
+                hits: 1,
+                frames_since_match: 0,
+            });
+            assert!(frame.detections.len() != 2, "two are too many");
+        }
+
+        fn reset(&mut self) {}
+
+        fn particles(&self, _id: u64) -> &[Particle] {
+            panic!("no particles here");
+        }
+    }
+
+    fn fragile_tracker() -> *mut gt2_tracker {
+        let config = Config::new("gentrack2").unwrap();
+        let tracker = Tracker::with_algorithm(&config, Box::new(Fragile));
+        give(gt2_tracker::new(config, tracker))
+    }
+
+    fn frame_of(detections: &[gt2_detection]) -> gt2_frame {
+        // SAFETY: all zero is a legal frame.
+        let empty: gt2_frame = unsafe { std::mem::zeroed() };
+        gt2_frame { detections: detections.as_ptr(), detection_count: detections.len(), ..empty }
+    }
+
+    fn empty_list() -> gt2_track_list {
+        gt2_track_list { struct_size: 0, tracks: null(), count: 0, stride: 0 }
+    }
+
+    fn last_error() -> &'static str {
+        // SAFETY: the function returns a C string that stays valid until the next failing call.
+        unsafe { CStr::from_ptr(gt2_last_error_message()) }.to_str().unwrap()
+    }
+
+    #[test]
+    fn a_panic_poisons_the_tracker_until_it_is_reset() {
+        // SAFETY: all zero is a legal detection.
+        let detections: [gt2_detection; 2] = unsafe { std::mem::zeroed() };
+        let tracker = fragile_tracker();
+        let mut list = empty_list();
+        let (mut ids, mut count) = (null(), 7);
+        let mut particles = gt2_particle_list { struct_size: 0, particles: null(), count: 7, stride: 0 };
+        let mut needed = 7;
+        // SAFETY: a live handle and live arguments throughout.
+        unsafe {
+            assert_eq!(gt2_tracker_step(tracker, &frame_of(&detections[..1])), GT2_OK);
+            assert_eq!(gt2_tracker_tracks(tracker, GT2_TRACKS_REPORTED, &mut list), GT2_OK);
+            assert_eq!(list.count, 1);
+
+            assert_eq!(gt2_tracker_step(tracker, &frame_of(&detections)), GT2_ERR_PANIC);
+            let message = last_error();
+            assert!(message.starts_with("internal error: two are too many at "), "{message}");
+            assert!(message.contains("tracker.rs:"), "{message}");
+
+            assert_eq!(gt2_tracker_step(tracker, &frame_of(&detections[..1])), GT2_ERR_POISONED);
+            assert_eq!(last_error(), "tracker met an internal error before");
+            assert_eq!(gt2_tracker_tracks(tracker, GT2_TRACKS_REPORTED, &mut list), GT2_ERR_POISONED);
+            assert_eq!(gt2_tracker_copy_tracks(tracker, 0, std::ptr::null_mut(), 0, 0, &mut needed), GT2_ERR_POISONED);
+            assert_eq!(gt2_tracker_ended(tracker, &mut ids, &mut count), GT2_ERR_POISONED);
+            assert_eq!(gt2_tracker_track_of_detection(tracker, &mut ids, &mut count), GT2_ERR_POISONED);
+            assert_eq!(gt2_tracker_particles(tracker, 1, &mut particles), GT2_ERR_POISONED);
+            assert!(gt2_tracker_algorithm(tracker).is_null());
+            assert_eq!((count, particles.count, needed), (7, 7, 7));
+
+            assert_eq!(gt2_tracker_reset(tracker), GT2_OK);
+            assert_eq!(gt2_tracker_tracks(tracker, GT2_TRACKS_REPORTED, &mut list), GT2_OK);
+            assert_eq!(list.count, 0);
+            assert_eq!(gt2_tracker_step(tracker, &frame_of(&detections)), GT2_OK);
+            gt2_tracker_free(tracker);
+        }
+    }
+
+    #[test]
+    fn a_panic_in_a_reading_function_poisons_too_and_a_poisoned_tracker_can_be_freed() {
+        let tracker = fragile_tracker();
+        let mut list = gt2_particle_list { struct_size: 0, particles: null(), count: 7, stride: 0 };
+        // SAFETY: a live handle and live arguments throughout.
+        unsafe {
+            assert_eq!(gt2_tracker_step(tracker, &frame_of(&[])), GT2_OK);
+            assert_eq!(gt2_tracker_particles(tracker, 1, &mut list), GT2_ERR_PANIC);
+            assert!(last_error().starts_with("internal error: no particles here at "));
+            assert_eq!(list.count, 7);
+            assert_eq!(gt2_tracker_step(tracker, &frame_of(&[])), GT2_ERR_POISONED);
+            gt2_tracker_free(tracker);
+        }
+    }
+}
