@@ -274,12 +274,12 @@ static void extremes(void) {
     frame.detection_count = SCENE_OBJECTS;
     CHECK_OK(gt2_tracker_step(tracker, &frame));
     CHECK(all_finite(tracker));
-    /* All of identical boxes, then a field of 20 000. */
+    /* A field of 20 000 boxes. */
     CHECK_OK(gt2_tracker_reset(tracker));
     frame.image = NULL;
     for (int t = 0; t < 3; t++) {
         for (int i = 0; i < MANY; i++) {
-            many[i] = scene_detection(30.0 * (i % 200) + t, 60.0 * (i / 200.0), 20.0, 50.0);
+            many[i] = scene_detection(30.0 * (i % 200) + t, 60.0 * (double)(i / 200), 20.0, 50.0);
         }
         frame.detections = many;
         frame.detection_count = MANY;

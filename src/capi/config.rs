@@ -16,16 +16,17 @@ use crate::parameters::Value;
 
 /// An algorithm with all its parameters, chosen and set by name. Made by `gt2_config_new` or `gt2_config_clone`,
 /// released by `gt2_config_free`. A tracker copies its config, so one config can serve many trackers.
+// C order, so that the header comes first; cbindgen takes types of stated alignment as opaque.
+#[repr(C, align(8))]
 pub struct gt2_config {
     header: Header,
     config: Config,
 }
 
-// SAFETY: as declared.
+// SAFETY: repr(C), header first, and `new` makes it with this tag.
 unsafe impl Handle for gt2_config {
     const TAG: u64 = 0x6774_3263_6f6e_6667;
     const NAME: &'static str = "config";
-    const OFFSET: usize = std::mem::offset_of!(gt2_config, header);
     fn header(&self) -> &Header {
         &self.header
     }

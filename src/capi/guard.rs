@@ -116,7 +116,9 @@ fn install_hook() {
             if DEPTH.try_with(Cell::get).unwrap_or(0) == 0 {
                 return previous(info);
             }
-            let text = info.payload_as_str().unwrap_or("unknown");
+            let payload = info.payload();
+            let text = payload.downcast_ref::<&str>().copied();
+            let text = text.or(payload.downcast_ref::<String>().map(String::as_str)).unwrap_or("unknown");
             let place = info.location().map(|l| format!(" at {}:{}", l.file(), l.line())).unwrap_or_default();
             let _ = PANIC_MESSAGE.try_with(|m| m.replace(format!("{text}{place}")));
         }));

@@ -35,14 +35,13 @@ impl Header {
 /// A type behind an opaque pointer.
 ///
 /// # Safety
-/// `OFFSET` is the offset of the [`Header`] that `header` returns, and that header was made with `TAG`.
+/// It begins with the [`Header`] that `header` returns, made with `TAG`. (At its beginning, so that looking at the
+/// tag of another type's handle reads nothing beyond that.)
 pub(super) unsafe trait Handle: Sized {
     /// Any number that is unlikely elsewhere in memory, one per type.
     const TAG: u64;
     /// What messages call it.
     const NAME: &'static str;
-    /// Where the header is.
-    const OFFSET: usize;
 
     fn header(&self) -> &Header;
 }
@@ -60,7 +59,7 @@ unsafe fn check<H: Handle>(pointer: *const H) -> Result<(), Failure> {
         return Err(invalid());
     }
     // SAFETY: readable by the caller's promise; volatile, as it may be memory that has been given back.
-    let tag = unsafe { pointer.byte_add(H::OFFSET).cast::<u64>().read_volatile() };
+    let tag = unsafe { pointer.cast::<u64>().read_volatile() };
     if tag == H::TAG { Ok(()) } else { Err(invalid()) }
 }
 
@@ -101,7 +100,7 @@ pub(super) unsafe fn take<H: Handle>(pointer: *mut H) -> Result<Option<Box<H>>, 
     unsafe {
         check(pointer)?;
         // Volatile, or it would be dropped as a store to dying memory.
-        pointer.byte_add(H::OFFSET).cast::<u64>().write_volatile(0);
+        pointer.cast::<u64>().write_volatile(0);
         Ok(Some(Box::from_raw(pointer)))
     }
 }
@@ -110,16 +109,16 @@ pub(super) unsafe fn take<H: Handle>(pointer: *mut H) -> Result<Option<Box<H>>, 
 mod tests {
     use super::*;
 
+    #[repr(C)]
     struct Lamp {
-        _before: u8,
         header: Header,
+        _light: u8,
     }
 
-    // SAFETY: as declared.
+    // SAFETY: repr(C), header first, and the test makes it with this tag.
     unsafe impl Handle for Lamp {
         const TAG: u64 = 0x1234_5678_9abc_def0;
         const NAME: &'static str = "lamp";
-        const OFFSET: usize = std::mem::offset_of!(Lamp, header);
         fn header(&self) -> &Header {
             &self.header
         }
@@ -127,7 +126,7 @@ mod tests {
 
     #[test]
     fn a_taken_handle_has_lost_its_tag() {
-        let lamp = give(Lamp { _before: 0, header: Header::new(Lamp::TAG) });
+        let lamp = give(Lamp { header: Header::new(Lamp::TAG), _light: 0 });
         // SAFETY: `lamp` was just made; the box keeps the memory alive while it is looked at again.
         unsafe {
             assert!(borrow(lamp).is_ok());

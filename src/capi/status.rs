@@ -101,7 +101,9 @@ thread_local! {
 
 /// Makes a failure the last error of this thread and returns its status.
 pub(super) fn report(failure: Failure) -> gt2_status {
-    let text = &failure.message[..failure.message.floor_char_boundary(MESSAGE_SIZE - 1)];
+    let room = failure.message.len().min(MESSAGE_SIZE - 1);
+    let end = (0..=room).rev().find(|&i| failure.message.is_char_boundary(i)).unwrap_or(0);
+    let text = &failure.message[..end];
     let mut buffer = [0; MESSAGE_SIZE];
     buffer[..text.len()].copy_from_slice(text.as_bytes());
     LAST_ERROR.with(|last| last.set(buffer));

@@ -18,6 +18,8 @@ use crate::track::Output;
 use crate::tracker::Tracker;
 
 /// Tracks the objects of one video stream. Made by `gt2_tracker_new`, released by `gt2_tracker_free`.
+// C order, so that the header comes first; cbindgen takes types of stated alignment as opaque.
+#[repr(C, align(8))]
 pub struct gt2_tracker {
     header: Header,
     config: Config,
@@ -57,11 +59,10 @@ impl TrackLists {
     }
 }
 
-// SAFETY: as declared.
+// SAFETY: repr(C), header first, and `new` makes it with this tag.
 unsafe impl Handle for gt2_tracker {
     const TAG: u64 = 0x6774_3274_7261_636b;
     const NAME: &'static str = "tracker";
-    const OFFSET: usize = std::mem::offset_of!(gt2_tracker, header);
     fn header(&self) -> &Header {
         &self.header
     }
