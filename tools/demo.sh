@@ -14,14 +14,14 @@ if [ -s "$detections" ] && [ -n "$(find "$detections" -newer "$program")" ]; the
     echo "using the detections of the last run: $detections"
     source="--det $detections"
 else
-    echo "detecting people in $video (about two minutes on two cores)"
+    echo "detecting people in $video (about two minutes on two idle cores)"
     # Nobody in this view is taller than 140 pixels; the detector also sees giants in the shapes of two people.
     source="--detector hog --max-height 160 --save-det $detections.part"
 fi
 
 # shellcheck disable=SC2086 # the source is two words or more
 "$program" --tracker gentrack2 $source --video "$video" --out "$out/demo.txt" --annotate "$out/demo.mp4" \
-    --sheet "$out/demo.png" --sheet-frames "${DEMO_FRAMES:-110,125,140,155,170,185}"
+    --sheet "$out/demo.png" --sheet-frames "${DEMO_FRAMES:-268,280,292,304,316,328}"
 if [ -e "$detections.part" ]; then mv "$detections.part" "$detections"; fi
 
 # time_of OPTIONS... : the line of --time for the tracker alone, on the stored detections.

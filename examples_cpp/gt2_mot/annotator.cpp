@@ -83,7 +83,7 @@ void draw_box(cv::Mat &image, const DrawnTrack &track, double scale) {
     switch (track.look) {
         case Look::strong: return solid_box(image, track.box, green, thickness);
         case Look::weak: return solid_box(image, track.box, red, thickness);
-        case Look::lost: return dashed_box(image, track.box, red, thickness, 5 * scale);
+        case Look::lost: return dashed_box(image, track.box, red, bold, 7 * scale);
         case Look::tentative: return solid_box(image, track.box, grey, thin);
     }
 }

@@ -32,7 +32,7 @@ struct ParsedRow {
     DetectionRow detection;
 };
 
-ParsedRow parse_detection(const std::string &path, long line, std::string_view text, bool normalise) {
+ParsedRow parse_detection(const std::string &path, long line, std::string_view text, bool any_score) {
     static constexpr const char *names[] = {"frame", "id", "left", "top", "width", "height", "score"};
     const auto fields = split_commas(text);
     if (fields.size() < 7) {
@@ -52,12 +52,28 @@ ParsedRow parse_detection(const std::string &path, long line, std::string_view t
     for (int i = 4; i < 6; ++i) {
         if (values[i] <= 0) bad_row(path, line, std::string(names[i]) + " " + quoted(fields[i]) + " is not above 0");
     }
-    double score = values[6];
-    if (normalise) score = 1.0 / (1.0 + std::exp(-score));
-    if (score < 0 || score > 1) {
+    const double score = values[6];
+    if (!any_score && (score < 0 || score > 1)) {
         bad_row(path, line, "score " + quoted(fields[6]) + " is outside 0..1 (--normalise-scores squashes any range)");
     }
     return {static_cast<long>(*frame), {values[2], values[3], values[4], values[5], score}};
+}
+
+std::vector<ParsedRow> parse_detections(const std::string &path, bool any_score) {
+    const std::string text = read_file(path);
+    std::vector<ParsedRow> rows;
+    for_each_line(text, [&](long number, std::string_view line) {
+        rows.push_back(parse_detection(path, number, line, any_score));
+    });
+    return rows;
+}
+
+/// Squashes scores of any range into (0, 1): 1 / (1 + exp(-score / their root mean square)).
+void normalise_scores(std::vector<ParsedRow> &rows) {
+    double squares = 0.0;
+    for (const ParsedRow &row : rows) squares += row.detection.score * row.detection.score;
+    const double scale = squares > 0 ? std::sqrt(squares / static_cast<double>(rows.size())) : 1.0;
+    for (ParsedRow &row : rows) row.detection.score = 1.0 / (1.0 + std::exp(-row.detection.score / scale));
 }
 
 float little_endian_float(const char *bytes) {
@@ -71,30 +87,26 @@ float little_endian_float(const char *bytes) {
 }  // namespace
 
 DetectionFile read_detections(const std::string &path, const DetectionOptions &options) {
-    const std::string text = read_file(path);
+    std::vector<ParsedRow> rows = parse_detections(path, options.normalise_scores);
+    if (options.normalise_scores) normalise_scores(rows);
     const bool with_embeddings = !options.embeddings.empty();
     const std::string raw = with_embeddings ? read_file(options.embeddings) : std::string();
     const std::size_t row_bytes = static_cast<std::size_t>(options.dimension) * 4;
-
-    DetectionFile file;
-    std::size_t rows = 0;
-    for_each_line(text, [&](long number, std::string_view line) {
-        const ParsedRow row = parse_detection(path, number, line, options.normalise_scores);
-        const std::size_t offset = rows++ * row_bytes;
-        file.last_frame = std::max(file.last_frame, row.frame);
-        if (!options.filter.passes(row.detection)) return;
-        FrameRows &frame = file.frames[row.frame];
-        frame.detections.push_back(row.detection);
-        // A file that is too short is reported below, with both counts.
-        if (!with_embeddings || offset + row_bytes > raw.size()) return;
-        for (int i = 0; i < options.dimension; ++i) {
-            frame.embeddings.push_back(little_endian_float(raw.data() + offset + i * 4));
-        }
-    });
-    if (with_embeddings && raw.size() != rows * row_bytes) {
+    if (with_embeddings && raw.size() != rows.size() * row_bytes) {
         throw UserError(options.embeddings + ": holds " + std::to_string(raw.size()) + " bytes, but " +
-                        std::to_string(rows) + " rows of " + path + " times --dim " +
-                        std::to_string(options.dimension) + " times 4 bytes are " + std::to_string(rows * row_bytes));
+                        std::to_string(rows.size()) + " rows of " + path + " times --dim " +
+                        std::to_string(options.dimension) + " times 4 bytes are " +
+                        std::to_string(rows.size() * row_bytes));
+    }
+    DetectionFile file;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        file.last_frame = std::max(file.last_frame, rows[i].frame);
+        if (!options.filter.passes(rows[i].detection)) continue;
+        FrameRows &frame = file.frames[rows[i].frame];
+        frame.detections.push_back(rows[i].detection);
+        for (int k = 0; with_embeddings && k < options.dimension; ++k) {
+            frame.embeddings.push_back(little_endian_float(raw.data() + i * row_bytes + k * 4));
+        }
     }
     return file;
 }

@@ -45,7 +45,8 @@ struct DetectionFilter {
 struct DetectionOptions {
     /// Other rows are dropped, together with their embeddings.
     DetectionFilter filter;
-    /// Squash scores of any range into (0, 1) by 1 / (1 + exp(-score)), before the filter is applied.
+    /// Squash scores of any range into (0, 1) by 1 / (1 + exp(-score / s)), s being their root mean
+    /// square, before the filter is applied.
     bool normalise_scores = false;
     /// Raw little-endian f32, one row of `dimension` numbers per row of the file; empty for none.
     std::string embeddings;

@@ -26,7 +26,8 @@ Tracks the objects of a video or of a file of detections and writes MOTChallenge
   --dim N              numbers per embedding
   --min-score S        drop detections below S before the tracker sees them
   --max-height H       drop detections taller than H pixels, where nobody can be so near
-  --normalise-scores   first squash the scores of --det, of any range, by 1 / (1 + exp(-score))
+  --normalise-scores   first squash the scores of --det, of any range, by 1 / (1 + exp(-score / s)), s being their
+                       root mean square
   --size WxH           size of the frames in pixels, where there are none to look at
   --fps F              frames per second; by default that of --video, else the tracker's default
   --frames N           number of frames to step; by default all of --video or --images, else up to the last

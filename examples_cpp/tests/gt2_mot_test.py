@@ -139,11 +139,12 @@ class Results(Case):
                          self.tracks("--det", self.file("both.txt", text_of(rows + tall)), "--max-height", 100))
 
     def test_normalised_scores(self):
-        """1 / (1 + exp(-ln 9)) = 0.9."""
-        rows = walk(20)
-        det = self.file("det.txt", text_of(rows))
-        wide = self.file("wide.txt", text_of([(*r[:6], "2.1972245773362196") for r in rows]))
-        self.assertEqual(self.tracks("--det", det), self.tracks("--det", wide, "--normalise-scores"))
+        """Scores 30 and -40 have the root mean square sqrt((900 + 1600) / 2) = 35.3553: 1 / (1 + exp(-30 / 35.3553)) =
+        0.700258 and 1 / (1 + exp(40 / 35.3553)) = 0.243908."""
+        det = self.file("det.txt", "1,-1,10,10,20,40,30\n2,-1,10,10,20,40,-40\n")
+        self.tracks("--det", det, "--normalise-scores", "--save-det", self.path("saved.txt"))
+        with open(self.path("saved.txt")) as file:
+            self.assertEqual([line.split(",")[6] for line in file], ["0.700258", "0.243908"])
 
     def test_saved_detections_are_what_the_tracker_got(self):
         det = self.file("det.txt", text_of(walk(5)))
