@@ -5,26 +5,34 @@
 #![allow(unsafe_code)]
 
 use std::alloc::{GlobalAlloc, Layout, System};
-use std::sync::atomic::{AtomicI64, AtomicU64, Ordering::Relaxed};
+use std::cell::Cell;
 
 use gentrack2::{Config, Detection, Embeddings, Frame, ImageView, PixelFormat, Tracker};
 
-static LIVE_BYTES: AtomicI64 = AtomicI64::new(0);
-static ALLOCATIONS: AtomicU64 = AtomicU64::new(0);
+// Per thread, so that what the test harness does meanwhile does not count.
+thread_local! {
+    static LIVE_BYTES: Cell<i64> = const { Cell::new(0) };
+    static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
+}
+
+/// Counts in this thread; a thread at its end no longer counts.
+fn count(bytes: i64, allocations: u64) {
+    let _ = LIVE_BYTES.try_with(|live| live.set(live.get() + bytes));
+    let _ = ALLOCATIONS.try_with(|n| n.set(n.get() + allocations));
+}
 
 struct Counting;
 
 // SAFETY: every call is passed on unchanged to the system's allocator, which keeps the contract.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        LIVE_BYTES.fetch_add(layout.size() as i64, Relaxed);
-        ALLOCATIONS.fetch_add(1, Relaxed);
+        count(layout.size() as i64, 1);
         // SAFETY: the caller keeps `alloc`'s contract.
         unsafe { System.alloc(layout) }
     }
 
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        LIVE_BYTES.fetch_sub(layout.size() as i64, Relaxed);
+        count(-(layout.size() as i64), 0);
         // SAFETY: the pointer came from `alloc` with this layout, and so from the system's allocator.
         unsafe { System.dealloc(pointer, layout) }
     }
@@ -88,12 +96,12 @@ fn run(rich: bool, marks: &[usize]) -> Readings {
             input.image = Some(ImageView::new(&texture, WIDTH, HEIGHT, 0, PixelFormat::Gray8).unwrap());
             input.embeddings = Some(Embeddings::new(&embeddings, DIMENSION));
         }
-        let before = ALLOCATIONS.load(Relaxed);
+        let before = ALLOCATIONS.get();
         let output = tracker.step(&input).unwrap();
-        allocations += ALLOCATIONS.load(Relaxed) - before;
+        allocations += ALLOCATIONS.get() - before;
         identities = output.reported.iter().map(|t| t.id).fold(identities, u64::max);
         if marks.contains(&frame) {
-            live.push(LIVE_BYTES.load(Relaxed));
+            live.push(LIVE_BYTES.get());
             if live.len() < marks.len() {
                 (allocations, last_mark) = (0, frame);
             }
