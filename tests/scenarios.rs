@@ -94,6 +94,55 @@ mod frame_rates {
         demand_identities(IMAGE_SEEDS, feed, |s| at_ten_frames_per_second(stage::crossing(s, 90.0)));
     }
 
+    /// A walker at 90 px/s seen at uneven times: after 1, 4, 2, 1, 4, 2 ... intervals of 1/30 s.
+    #[test]
+    fn uneven_times_give_the_true_speed_and_place() {
+        let at = |t: f64| gentrack2::Rect::new(50.0 + 90.0 * t, 200.0, 40.0, 100.0);
+        let mut tracker = tracker(0);
+        let mut t = 0.0;
+        let mut step = |t: f64, detected: bool| {
+            let r = at(t);
+            let detections = [Detection::new(r.left, r.top, r.width, r.height, 0.9)];
+            let frame = if detected { Frame::new(&detections) } else { Frame::skipped() };
+            tracker.step(&Frame { timestamp_ns: Some((t * 1e9) as i64), ..frame }).unwrap().reported.clone()
+        };
+        for frame in 0..60 {
+            t += [1.0, 4.0, 2.0][frame % 3] / 30.0;
+            let tracks = step(t, true);
+            assert_eq!((tracks.len(), tracks[0].id), (1, 1), "frame {frame}");
+            if frame > 20 {
+                assert!((tracks[0].velocity.u - 90.0).abs() < 1.0, "frame {frame}: {:?}", tracks[0].velocity);
+            }
+        }
+        // Where the detector does not run the box is a prediction over the time gone by: 3, then 12 px.
+        for intervals in [1.0, 4.0] {
+            t += intervals / 30.0;
+            let tracks = step(t, false);
+            assert!(tracks[0].rect.iou(&at(t)) > 0.95, "{:?}, true {:?}", tracks[0].rect, at(t));
+        }
+    }
+
+    /// A lost track lives as long at 10 frames per second as at 30.
+    #[test]
+    fn lifetimes_are_in_real_time() {
+        let seconds_lost = |interval: f64| {
+            let mut tracker = tracker(0);
+            let detections = [Detection::new(100.0, 100.0, 40.0, 100.0, 0.9)];
+            for frame in 0.. {
+                let t = frame as f64 * interval;
+                let seen: &[Detection] = if t < 2.0 { &detections } else { &[] };
+                let output = tracker.step(&Frame { timestamp_ns: Some((t * 1e9) as i64), ..Frame::new(seen) }).unwrap();
+                if !output.ended.is_empty() {
+                    return t - 2.0;
+                }
+            }
+            unreachable!()
+        };
+        let (ten, thirty) = (seconds_lost(0.1), seconds_lost(1.0 / 30.0));
+        // Whole frames: an end can come an interval later.
+        assert!((ten - thirty).abs() <= 0.101, "{ten} s at 10, {thirty} s at 30 frames per second");
+    }
+
     #[test]
     fn timestamps_at_the_nominal_rate_keep_identities() {
         let feed = Feed { timestamps: true, ..Feed::default() };
