@@ -295,6 +295,20 @@ mod bookkeeping {
     }
 
     #[test]
+    fn identities_are_never_used_again() {
+        // A hundred targets come and go one after the other, each long after the one before has ended.
+        let mut tracker = tracker(0);
+        let mut contract = Contract::default();
+        let detections = [Detection::new(100.0, 100.0, 40.0, 100.0, 0.9)];
+        for frame in 0..100 * 80 {
+            let seen = if frame % 80 < 6 { &detections[..] } else { &[] };
+            let output = tracker.step(&Frame::new(seen)).unwrap();
+            contract.check(seen, output);
+        }
+        assert_eq!(contract.ended().len(), 100);
+    }
+
+    #[test]
     fn frames_without_detections_are_normal() {
         let mut tracker = tracker(0);
         for frame in
