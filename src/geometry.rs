@@ -41,14 +41,19 @@ impl Rect {
         x >= self.left && y >= self.top && x < self.right() && y < self.bottom()
     }
 
-    /// Intersection over union in `[0, 1]`; 0 when both boxes are empty.
-    pub fn iou(&self, other: &Rect) -> f64 {
+    /// Area shared with another box, in square pixels.
+    pub fn intersection(&self, other: &Rect) -> f64 {
         let width = self.right().min(other.right()) - self.left.max(other.left);
         let height = self.bottom().min(other.bottom()) - self.top.max(other.top);
-        if width <= 0.0 || height <= 0.0 {
+        if width <= 0.0 || height <= 0.0 { 0.0 } else { width * height }
+    }
+
+    /// Intersection over union in `[0, 1]`; 0 when both boxes are empty.
+    pub fn iou(&self, other: &Rect) -> f64 {
+        let intersection = self.intersection(other);
+        if intersection <= 0.0 {
             return 0.0;
         }
-        let intersection = width * height;
         intersection / (self.area() + other.area() - intersection)
     }
 }

@@ -5,7 +5,7 @@
 //! pen   += zeta Delta,   age += zeta Delta age_max
 //! zeta   = sign(rho_re - f + Delta_e) beside a strong track, else 1
 //! ```
-//! per tick, with `l` the time without a match and `f` the history fitness of the swarm's global best.
+//! per tick, with `l` the time without a match, which passes slower behind other targets, and `f` the history fitness of the swarm's global best.
 
 use super::parameters::GenTrack2Parameters;
 use super::target::Target;
@@ -16,15 +16,21 @@ pub fn age(p: &GenTrack2Parameters, target: &mut Target, beside_strong: bool, ti
     let fitness = target.global_fitness.max(p.fitness_floor);
     let can_recover = p.recovery_threshold < 1.0 && target.has_template && beside_strong;
     let trust = if can_recover { sign(p.recovery_threshold - fitness + entrance) } else { 1.0 };
-    let step = trust * growth(p, target.missed) * (1.0 - fitness + entrance) * ticks;
+    let step = trust * growth(p, target.blamed) * (1.0 - fitness + entrance) * ticks;
     target.penalty = (target.penalty + step).clamp(0.0, 1.0);
     target.age = (target.age + step * p.max_age).clamp(0.0, p.max_age);
 }
 
+/// How fast time without a match passes for a track of whose box a strong track covers the given share: slower the
+/// more is covered, for a hidden target cannot be detected.
+pub fn pace(p: &GenTrack2Parameters, covered: f64) -> f64 {
+    1.0 - (1.0 - p.covered_pace) * covered
+}
+
 /// `1 - exp(-l^2 / (2 sigma^2))`.
-fn growth(p: &GenTrack2Parameters, missed: f64) -> f64 {
+fn growth(p: &GenTrack2Parameters, blamed: f64) -> f64 {
     let sigma = p.max_age / 6.0;
-    1.0 - libm::exp(-missed * missed / (2.0 * sigma * sigma))
+    1.0 - libm::exp(-blamed * blamed / (2.0 * sigma * sigma))
 }
 
 /// `Delta_e`: the configured penalty inside an entrance area, else 0.
@@ -43,11 +49,11 @@ mod tests {
     use crate::frame::Detection;
     use crate::geometry::Rect;
 
-    fn weak(fitness: f64, missed: f64) -> Target {
+    fn weak(fitness: f64, blamed: f64) -> Target {
         let mut target = Target::blank();
         target.begin(1, &Detection::new(0.0, 0.0, 20.0, 20.0, 0.9), 0, 0, 1);
         target.global_fitness = fitness;
-        target.missed = missed;
+        target.blamed = blamed;
         target.has_template = true;
         target
     }
@@ -93,6 +99,15 @@ mod tests {
         let mut target = weak(0.2, 10.0);
         age(&p, &mut target, false, 1.0);
         assert!((target.penalty - 0.039_346_934_029).abs() < 1e-9);
+    }
+
+    #[test]
+    fn time_passes_slower_behind_another_target() {
+        let p = GenTrack2Parameters { covered_pace: 0.2, ..parameters() };
+        assert_eq!(pace(&p, 0.0), 1.0);
+        assert!((pace(&p, 1.0) - 0.2).abs() < 1e-12);
+        // Half covered: half-way between 1 and .2.
+        assert!((pace(&p, 0.5) - 0.6).abs() < 1e-12);
     }
 
     #[test]

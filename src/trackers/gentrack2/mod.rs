@@ -9,7 +9,7 @@
 //! | data association, eq. 7-8 | [`data_association`], [`observations`], [`residual`] |
 //! | strong tracks, eq. 9 | [`strong_update`], [`appearance_model`] |
 //! | new tracks, eq. 10 | [`new_tracks`] |
-//! | weak tracks, eq. 11-14 | [`weak_motion`], [`ageing`] |
+//! | weak tracks, eq. 11-14 | [`weak_motion`], [`ageing`], [`covering`] |
 //! | removal, eq. 15 | [`removal`] |
 //! | velocity regression, eq. 16 | [`velocity_regression`] |
 //! | what is reported | [`coasting`], [`reporting`] |
@@ -17,6 +17,7 @@
 mod ageing;
 mod appearance_model;
 mod coasting;
+mod covering;
 mod data_association;
 mod fitness;
 mod neighbours;
@@ -43,6 +44,7 @@ use crate::tracker::StepContext;
 use crate::trackers::TrackingAlgorithm;
 
 use coasting::CoastRecord;
+use covering::Covering;
 use data_association::{DataAssociation, Sight};
 use neighbours::Neighbours;
 use new_tracks::Births;
@@ -91,6 +93,7 @@ struct Workspace {
     births: Births,
     regression: VelocityRegression,
     trusted: TrustedMedian,
+    covering: Covering,
     states: Vec<State>,
     predictions: Vec<(State, State)>,
     particles: ParticleList,
@@ -177,6 +180,7 @@ impl GenTrack2 {
         let (neighbours, states) = (&work.neighbours, &work.states);
         let lonely = |i: usize| !targets[i].is_strong() && neighbours.of(i).is_empty();
         work.expanded.search(states, p.neighbour_radius_expanded, lonely);
+        let covered = work.covering.shares(targets);
         for index in 0..targets.len() {
             if targets[index].is_strong() {
                 continue;
@@ -189,9 +193,11 @@ impl GenTrack2 {
             let target = &mut targets[index];
             target.state = weak_motion::moved(p, target, trusted.as_ref(), ticks);
             if detector_ran {
+                let blamed = self.memory.since_detector * ageing::pace(p, covered[index]);
                 target.missed += self.memory.since_detector;
+                target.blamed += blamed;
                 target.missed_frames = target.missed_frames.saturating_add(1);
-                ageing::age(p, target, trusted.is_some(), self.memory.since_detector);
+                ageing::age(p, target, trusted.is_some(), blamed);
             }
         }
     }

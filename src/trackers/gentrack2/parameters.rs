@@ -208,6 +208,9 @@ parameters! {
         still_speed: f64 = 0.003, [0.0, 1.0], "box diagonals/tick", "tau_V";
         /// Cosine between the velocities of track and neighbours from which they move together.
         delta_d: f64 = 0.95, [-1.0, 1.0], "", "delta_d";
+        /// Ratio of their speeds, the lower over the higher, from which they do: the one who overtakes goes its own
+        /// way. 0 is the paper's text.
+        speed_ratio: f64 = 0.85, [0.0, 1.0], "", "";
         /// Trust of a weak track in its swarm's global best.
         sigma_g: f64 = 0.3, [0.0, 1.0], "", "sigma_g";
         /// Strength of the push away from neighbours that move otherwise; never more than the track's own speed.
@@ -224,6 +227,9 @@ parameters! {
         recovery_threshold: f64 = 1.0, [0.0, 1.0], "", "rho_re";
         /// Time without a match after which a track ends whatever its age.
         max_missed: f64 = 30.0, [0.0, 1e6], "ticks", "";
+        /// Pace at which time without a match passes for a weak track that is wholly behind a strong one; 1 for one
+        /// in the open, in proportion in between. 1 is the paper's text.
+        covered_pace: f64 = 0.5, [0.0, 1.0], "", "";
         /// Places where targets enter and leave: weak tracks centred in them age faster.
         entrance_areas: Vec<Rect> = Vec::new(), [], "px", "";
         /// How much faster.
@@ -286,8 +292,10 @@ impl GenTrack2Parameters {
                 strong_penalty: 0.0,
                 weak_motion: WeakMotion::Neighbours,
                 delta_d: 0.9,
+                speed_ratio: 0.0,
                 sigma_g: 0.3,
                 fitness_floor: 0.0,
+                covered_pace: 1.0,
                 epsilon_s: 0.05,
                 recovery_threshold: 0.8,
                 history: 10,

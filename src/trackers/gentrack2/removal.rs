@@ -11,7 +11,7 @@ pub fn is_expired(p: &GenTrack2Parameters, target: &Target, frame_size: Option<(
     let unconfirmed_miss = !target.confirmed && target.missed > 0.0;
     // Eq. 15.
     let aged = target.age >= p.max_age;
-    let missed = target.missed > p.max_missed;
+    let missed = target.blamed > p.max_missed;
     let left = p.end_outside && !target.is_strong() && is_outside(target, frame_size);
     unconfirmed_miss || aged || missed || left || !is_sane(target)
 }
@@ -39,7 +39,7 @@ mod tests {
         target.begin(1, &Detection::new(0.0, 0.0, 20.0, 20.0, 0.9), 0, 0, 1);
         target.matched = Match::None;
         target.confirmed = true;
-        target.missed = missed;
+        (target.missed, target.blamed) = (missed, missed);
         target
     }
 

@@ -16,6 +16,7 @@ pub fn update(p: &GenTrack2Parameters, target: &mut Target, detection: &Detectio
     target.penalty = p.strong_penalty * (1.0 - detection.score);
     target.age = 0.0;
     target.missed = 0.0;
+    target.blamed = 0.0;
     target.missed_frames = 0;
     target.frames_since_match = 0;
     target.last = *detection;

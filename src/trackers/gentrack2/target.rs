@@ -68,8 +68,10 @@ pub struct Target {
     pub penalty: f64,
     /// Age `X^age` in ticks.
     pub age: f64,
-    /// Time without a match, the paper's `l`, in ticks.
+    /// Time without a match in ticks.
     pub missed: f64,
+    /// The same at the pace of [`super::ageing::pace`]: the paper's `l`.
+    pub blamed: f64,
     /// Frames without a match on which the detector ran.
     pub missed_frames: u32,
     /// Frames without a match.
@@ -118,6 +120,7 @@ impl Target {
             penalty: 0.0,
             age: 0.0,
             missed: 0.0,
+            blamed: 0.0,
             missed_frames: 0,
             frames_since_match: 0,
             hits: 0,
@@ -149,6 +152,7 @@ impl Target {
         self.penalty = 0.0;
         self.age = 0.0;
         self.missed = 0.0;
+        self.blamed = 0.0;
         self.missed_frames = 0;
         self.frames_since_match = 0;
         self.hits = 1;

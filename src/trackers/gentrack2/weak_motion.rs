@@ -64,9 +64,11 @@ pub fn moved(p: &GenTrack2Parameters, weak: &Target, trusted: Option<&Trusted>, 
 
 /// Eq. 13.
 fn with_neighbours(p: &GenTrack2Parameters, weak: &Target, own: Vector, trusted: &Trusted, ticks: f64) -> Vector {
-    let together = dot(own, trusted.velocity) / (length(own) * length(trusted.velocity));
-    if together >= p.delta_d {
-        return add(centre(&weak.state), trusted.displacement);
+    let (speed, others) = (length(own), length(trusted.velocity));
+    if dot(own, trusted.velocity) / (speed * others) >= p.delta_d {
+        let together = speed.min(others) / speed.max(others) >= p.speed_ratio;
+        let step = if together { trusted.displacement } else { scale(own, ticks) };
+        return add(centre(&weak.state), step);
     }
     let avoiding = avoid(p, weak, own, trusted, ticks);
     let best = centre(&weak.global_best);
@@ -190,6 +192,16 @@ mod tests {
         // cos = (3*4 + 4*3) / 25 = .96 >= .9: the displacement of the neighbours, not the own velocity.
         let trusted = Trusted { position: (40.0, 0.0), displacement: (4.5, 2.5), velocity: (4.0, 3.0) };
         assert_eq!(position(&parameters(), &weak((3.0, 4.0)), Some(&trusted)), (4.5, 2.5));
+    }
+
+    #[test]
+    fn the_one_who_overtakes_goes_its_own_way() {
+        // Same direction, speeds 5 and 3: the ratio is .6.
+        let p = GenTrack2Parameters { speed_ratio: 0.7, ..parameters() };
+        let trusted = Trusted { position: (40.0, 0.0), displacement: (1.8, 2.4), velocity: (1.8, 2.4) };
+        assert_eq!(position(&p, &weak((3.0, 4.0)), Some(&trusted)), (3.0, 4.0));
+        let literal = GenTrack2Parameters { speed_ratio: 0.0, ..p };
+        assert_eq!(position(&literal, &weak((3.0, 4.0)), Some(&trusted)), (1.8, 2.4));
     }
 
     #[test]

@@ -1,0 +1,67 @@
+//! Covering: how much of a weak track lies behind tracks that have a detection in this frame. Behind another target
+//! the detector cannot see it, so a miss says little about whether it is still there.
+
+use crate::candidates::OverlapSweep;
+use crate::geometry::Rect;
+
+use super::target::Target;
+
+/// Finds covered tracks, with buffers that are reused.
+#[derive(Default)]
+pub struct Covering {
+    sweep: OverlapSweep,
+    hidden: Vec<Rect>,
+    hiding: Vec<Rect>,
+    shares: Vec<f64>,
+}
+
+impl Covering {
+    /// For each weak target the largest share of its box, in `[0, 1]`, that one strong target's box covers; 0 for
+    /// strong targets.
+    pub fn shares(&mut self, targets: &[Target]) -> &[f64] {
+        let boxes = |list: &mut Vec<Rect>, strong: bool| {
+            list.clear();
+            let chosen = |t: &Target| if t.is_strong() == strong { Rect::from(t.state) } else { Rect::default() };
+            list.extend(targets.iter().map(chosen));
+        };
+        boxes(&mut self.hidden, false);
+        boxes(&mut self.hiding, true);
+        self.shares.clear();
+        self.shares.resize(targets.len(), 0.0);
+        for &(weak, strong) in self.sweep.pairs(&self.hidden, &self.hiding) {
+            let (own, cover) = (&self.hidden[weak as usize], &self.hiding[strong as usize]);
+            let share = &mut self.shares[weak as usize];
+            *share = share.max(own.intersection(cover) / own.area());
+        }
+        &self.shares
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::Detection;
+    use crate::trackers::gentrack2::target::Match;
+
+    #[test]
+    fn the_share_is_of_the_weak_tracks_own_box_behind_the_best_strong_one() {
+        let target = |left: f64, width: f64, strong: bool| {
+            let mut target = Target::blank();
+            target.begin(1, &Detection::new(left, 0.0, width, 20.0, 0.9), 0, 0, 1);
+            if !strong {
+                target.matched = Match::None;
+            }
+            target
+        };
+        // The weak box 0..20 is covered from 5 on by a strong one and up to 4 by another: 15/20 and 4/20. A weak box
+        // covers nothing.
+        let targets = [
+            target(0.0, 20.0, false),
+            target(5.0, 100.0, true),
+            target(-50.0, 54.0, true),
+            target(0.0, 20.0, false),
+            target(300.0, 20.0, false),
+        ];
+        assert_eq!(Covering::default().shares(&targets), [0.75, 0.0, 0.0, 0.75, 0.0]);
+    }
+}
