@@ -6,7 +6,7 @@ use gentrack2::Output;
 
 use super::contract::Contract;
 use super::driver::{Feed, tracker};
-use super::scene::{Observation, Scene};
+use super::scene::{Observation, Scene, Truth};
 
 /// Frames with the detector running for which a track of nothing but clutter may be shown: a birth in the first frame
 /// is trusted at once and is shown for one more frame.
@@ -17,6 +17,9 @@ const WARM_UP: f64 = 0.5;
 const LEAST_SHOWN: f64 = 0.85;
 /// Mean IoU with the truth while matched.
 const LEAST_IOU: f64 = 0.75;
+/// IoU of two objects' true boxes from which they coincide: whose of the two a detection is cannot be told from its
+/// noisy box, so identities are judged again once they have parted.
+const COINCIDENT: f64 = 0.5;
 
 #[derive(Default)]
 struct ObjectRecord {
@@ -60,7 +63,8 @@ impl Verdict {
         for truth in &seen.truth {
             let record = &mut self.objects[truth.object];
             if let Some(track) = on_object[truth.object] {
-                if record.identities.last().is_none_or(|last| last.1 != track.id) {
+                let known = record.identities.last().is_some_and(|last| last.1 == track.id);
+                if !known && !coincides(truth, &seen.truth) {
                     record.identities.push((seen.frame, track.id));
                 }
                 record.ious.push(track.rect.iou(&truth.rect));
@@ -110,6 +114,10 @@ impl Verdict {
         }
         complaints
     }
+}
+
+fn coincides(one: &Truth, all: &[Truth]) -> bool {
+    all.iter().any(|other| other.object != one.object && other.rect.iou(&one.rect) >= COINCIDENT)
 }
 
 /// Plays a scene to a fresh default tracker.
