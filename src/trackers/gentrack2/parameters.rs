@@ -248,6 +248,9 @@ parameters! {
         slope_limit: f64 = 0.2, [0.0, 10.0], "box diagonals/tick", "tau (u, v)";
         /// ... and of the size.
         size_slope_limit: f64 = 0.1, [0.0, 10.0], "box sizes/tick", "tau (w, h)";
+        /// Time over which a track must have been seen for its velocity to be believed in full: the boxes' jitter over
+        /// a few frames looks like speed. The share grows with the square of the time. 0 is the paper's text.
+        velocity_doubt: f64 = 5.0, [0.0, 1e3], "ticks", "";
 
         // Reporting.
         /// Frames without a match for which a confirmed track is still reported.
@@ -301,6 +304,7 @@ impl GenTrack2Parameters {
                 history: 10,
                 regression_window: 5,
                 regression_lags: RegressionLags::All,
+                velocity_doubt: 0.0,
                 coast: 0.0,
                 ..defaults
             }),

@@ -4,8 +4,12 @@
 //! Gamma = { (X_j - X_i) / (t_j - t_i) : 0 < j - i <= F, both within the last H, |slope| <= tau }
 //! V     = median of Gamma, 0 if empty
 //! ```
+//! times the share of it that is believed of a track seen for a short time.
+//!
 //! Of an even number the median is the mean of the middle two. Only states that a detection confirmed take part, so a
 //! track that coasts does not learn from itself.
+
+use std::collections::VecDeque;
 
 use crate::geometry::State;
 
@@ -56,7 +60,7 @@ impl VelocityRegression {
         let limits = State::new(centre, centre, width, height);
         self.collect_slopes(target.history.make_contiguous(), p.regression_lags, reach.window, &limits);
         let [u, v, w, h] = self.slopes.each_mut().map(|slopes| median(slopes));
-        target.velocity = State::new(u, v, w, h);
+        target.velocity = State::new(u, v, w, h) * trust(p, &target.history);
     }
 
     fn collect_slopes(&mut self, history: &[Observation], lags: RegressionLags, window: usize, limits: &State) {
@@ -75,6 +79,13 @@ impl VelocityRegression {
             }
         }
     }
+}
+
+/// The share of a regressed velocity that is believed: jitter of the boxes over a short time looks like speed.
+fn trust(p: &GenTrack2Parameters, history: &VecDeque<Observation>) -> f64 {
+    let (Some(first), Some(last)) = (history.front(), history.back()) else { return 0.0 };
+    let seen = last.time - first.time;
+    if seen < p.velocity_doubt { (seen / p.velocity_doubt) * (seen / p.velocity_doubt) } else { 1.0 }
 }
 
 /// Lags in states: every one up to the window, or half the window and the window.
@@ -147,7 +158,7 @@ mod tests {
 
     fn all(history: i64, regression_window: i64) -> GenTrack2Parameters {
         let regression_lags = RegressionLags::All;
-        GenTrack2Parameters { history, regression_window, regression_lags, ..Default::default() }
+        GenTrack2Parameters { history, regression_window, regression_lags, velocity_doubt: 0.0, ..Default::default() }
     }
 
     #[test]
@@ -199,7 +210,18 @@ mod tests {
     #[test]
     fn sparse_lags_agree_on_a_straight_line() {
         let track: Vec<(f64, f64)> = (0..30).map(|t| (t as f64, 1.5 * t as f64)).collect();
-        assert_eq!(regress(&GenTrack2Parameters::default(), &track).u, 1.5);
+        let p = GenTrack2Parameters { velocity_doubt: 0.0, ..Default::default() };
+        assert_eq!(regress(&p, &track).u, 1.5);
+    }
+
+    #[test]
+    fn a_track_seen_for_a_short_time_is_believed_in_part() {
+        // Slopes 2, 1 and 1.5, seen over 2 ticks: with a doubt of 4, (2 / 4)^2 of 1.5; with one of 2 or less, all.
+        let track = [(0.0, 0.0), (1.0, 2.0), (2.0, 3.0)];
+        let with = |velocity_doubt| regress(&GenTrack2Parameters { velocity_doubt, ..all(10, 2) }, &track).u;
+        assert_eq!(with(4.0), 0.375);
+        assert_eq!(with(2.0), 1.5);
+        assert_eq!(with(1.0), 1.5);
     }
 
     #[test]
