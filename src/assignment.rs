@@ -265,7 +265,7 @@ mod tests {
             rows in 0usize..6,
             columns in 0usize..6,
             limit in -0.5f64..1.0,
-            raw in proptest::collection::vec(prop_oneof![3 => (-1.0f64..1.0), 1 => Just(f64::INFINITY)], 36),
+            raw in proptest::collection::vec(prop_oneof![3 => -1.0f64..1.0, 1 => Just(f64::INFINITY)], 36),
         ) {
             let matrix: Vec<Vec<f64>> = (0..rows).map(|r| raw[r * 6..r * 6 + columns].to_vec()).collect();
             let mut solver = Assignment::default();

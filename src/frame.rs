@@ -102,7 +102,7 @@ pub struct Frame<'a> {
     pub image: Option<ImageView<'a>>,
     /// Width and height of the frame in pixels where no image is given; tracks that leave it can be ended.
     pub size: Option<(u32, u32)>,
-    /// Camera motion since the previous frame.
+    /// Camera motion since the previous frame; the identity says that it stood still, `None` that it is not known.
     pub camera_motion: Option<CameraMotion>,
     /// Capture time in nanoseconds from any fixed origin; must grow from frame to frame.
     pub timestamp_ns: Option<i64>,

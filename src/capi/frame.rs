@@ -33,7 +33,7 @@ pub struct gt2_frame {
     pub image: *const gt2_image,
     /// How the camera moved: 6 numbers a b c d e f that take a point (x, y) of the previous frame to
     /// (a x + b y + c, d x + e y + f) in this one, in pixels (OpenCV's 2x3 affine matrix, row by row). NULL if it
-    /// stood still or is unknown.
+    /// is not known; the identity says that it stood still, which trackers then need not guess.
     pub camera_motion: *const f64,
     /// Width of the frame in pixels where no image is given, otherwise 0 or the image's; 0 with `image_height` 0 if
     /// unknown. Known sizes let tracks end that leave the frame.

@@ -142,6 +142,17 @@ fn overlap(p: &GenTrack2Parameters, a: &State, b: &State) -> f64 {
     iou * (shared / whole).sqrt()
 }
 
+/// Whether what is seen of a detection speaks for a target, as far as anything is.
+pub fn looks_alike(
+    p: &GenTrack2Parameters,
+    target: &Target,
+    observations: &mut Observations,
+    index: usize,
+    sight: &mut Sight<'_, '_>,
+) -> bool {
+    embedding_part(p, target, observations, index) <= 0.0 && hog_part(p, target, observations, index, sight) <= 0.0
+}
+
 /// Weighted embedding dissimilarity less the room that the gate gives for it.
 fn embedding_part(p: &GenTrack2Parameters, target: &Target, observations: &Observations, column: usize) -> f64 {
     match observations.embedding(column) {

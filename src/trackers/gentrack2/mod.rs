@@ -8,8 +8,8 @@
 //! | swarm guidance, eq. 4-6 | [`swarm`], [`fitness`], [`resampling`] |
 //! | data association, eq. 7-8 | [`data_association`], [`observations`], [`residual`] |
 //! | strong tracks, eq. 9 | [`strong_update`], [`appearance_model`] |
-//! | new tracks, eq. 10 | [`new_tracks`] |
-//! | weak tracks, eq. 11-14 | [`weak_motion`], [`ageing`], [`covering`] |
+//! | new tracks, eq. 10 | [`new_tracks`], [`reacquisition`] |
+//! | weak tracks, eq. 11-14 | [`weak_motion`], [`common_motion`], [`ageing`], [`covering`] |
 //! | removal, eq. 15 | [`removal`] |
 //! | velocity regression, eq. 16 | [`velocity_regression`] |
 //! | what is reported | [`coasting`], [`reporting`] |
@@ -17,6 +17,7 @@
 mod ageing;
 mod appearance_model;
 mod coasting;
+mod common_motion;
 mod covering;
 mod data_association;
 mod fitness;
@@ -25,6 +26,7 @@ mod new_tracks;
 mod observations;
 mod parameters;
 mod particle_sampling;
+mod reacquisition;
 mod removal;
 mod reporting;
 mod resampling;
@@ -44,6 +46,7 @@ use crate::tracker::StepContext;
 use crate::trackers::TrackingAlgorithm;
 
 use coasting::CoastRecord;
+use common_motion::CommonMotion;
 use covering::Covering;
 use data_association::{DataAssociation, Sight};
 use neighbours::Neighbours;
@@ -94,9 +97,41 @@ struct Workspace {
     regression: VelocityRegression,
     trusted: TrustedMedian,
     covering: Covering,
+    common_motion: CommonMotion,
     states: Vec<State>,
     predictions: Vec<(State, State)>,
     particles: ParticleList,
+}
+
+impl Workspace {
+    /// Updates a matched target and lets it learn from its detection.
+    fn take_detection(
+        &mut self,
+        p: &GenTrack2Parameters,
+        target: &mut Target,
+        index: usize,
+        frame: &Frame<'_>,
+        time: f64,
+        ticks: f64,
+    ) {
+        strong_update::update(p, target, &self.observations.get(index).detection);
+        self.learn(p, target, index, frame, time, ticks);
+    }
+
+    /// Lets a target learn looks and velocity from its detection.
+    fn learn(
+        &mut self,
+        p: &GenTrack2Parameters,
+        target: &mut Target,
+        index: usize,
+        frame: &Frame<'_>,
+        time: f64,
+        ticks: f64,
+    ) {
+        let image = frame.image.as_ref();
+        appearance_model::learn(p, target, &mut self.observations, index, image, &mut self.swarm.hog);
+        self.regression.learn(p, target, time, Reach::new(p, ticks));
+    }
 }
 
 impl GenTrack2 {
@@ -152,35 +187,25 @@ impl GenTrack2 {
 
     fn update_strong(&mut self, frame: &Frame<'_>, ticks: f64) {
         let (p, work, memory) = (&self.parameters, &mut self.work, &mut self.memory);
-        let reach = Reach::new(p, ticks);
         for target in &mut memory.targets {
             let Some(index) = target.matched.index() else { continue };
             let observed = work.observations.get(index);
-            let (detection, detected) = (observed.detection, observed.state);
             if target.missed > 0.0 {
-                memory.record.found(target, &detection.rect);
-            } else if residual::is_telling(target, &detection) {
-                target.residual.learn(&mut memory.scene, &target.predicted, &detected);
+                memory.record.found(target, &observed.detection.rect);
+            } else if residual::is_telling(target, &observed.detection) {
+                target.residual.learn(&mut memory.scene, &target.predicted, &observed.state);
             }
-            strong_update::update(p, target, &detection);
-            appearance_model::learn(
-                p,
-                target,
-                &mut work.observations,
-                index,
-                frame.image.as_ref(),
-                &mut work.swarm.hog,
-            );
-            work.regression.learn(p, target, memory.time, reach);
+            work.take_detection(p, target, index, frame, memory.time, ticks);
         }
     }
 
-    fn update_weak(&mut self, ticks: f64, detector_ran: bool) {
+    fn update_weak(&mut self, ticks: f64, detector_ran: bool, camera_known: bool) {
         let (p, work, targets) = (&self.parameters, &mut self.work, &mut self.memory.targets);
         let (neighbours, states) = (&work.neighbours, &work.states);
         let lonely = |i: usize| !targets[i].is_strong() && neighbours.of(i).is_empty();
         work.expanded.search(states, p.neighbour_radius_expanded, lonely);
         let covered = work.covering.shares(targets);
+        let shift = if p.common_motion && !camera_known { work.common_motion.shift(targets) } else { (0.0, 0.0) };
         for index in 0..targets.len() {
             if targets[index].is_strong() {
                 continue;
@@ -192,6 +217,9 @@ impl GenTrack2 {
             let trusted = work.trusted.over(targets, near);
             let target = &mut targets[index];
             target.state = weak_motion::moved(p, target, trusted.as_ref(), ticks);
+            target.state.u += shift.0;
+            target.state.v += shift.1;
+            target.covered = target.covered.max(covered[index]);
             if detector_ran {
                 let blamed = self.memory.since_detector * ageing::pace(p, covered[index]);
                 target.missed += self.memory.since_detector;
@@ -202,18 +230,25 @@ impl GenTrack2 {
         }
     }
 
-    fn start_tracks(&mut self, frame: &Frame<'_>, context: &mut StepContext<'_>) {
+    fn start_tracks(&mut self, frame: &Frame<'_>, context: &mut StepContext<'_>, ticks: f64) {
         let (p, work, memory) = (&self.parameters, &mut self.work, &mut self.memory);
         let room = context.max_tracks.saturating_sub(memory.targets.len());
         work.births.choose(p, &memory.targets, &work.observations, &work.association.taken, room);
-        for &index in &work.births.chosen {
+        for nth in 0..work.births.chosen.len() {
+            let index = work.births.chosen[nth];
+            let (row, detection) = (index as usize, work.observations.get(index as usize).detection);
+            let mut sight = Sight { image: frame.image.as_ref(), hog: &mut work.swarm.hog };
+            if let Some(found) = reacquisition::find(p, &memory.targets, &mut work.observations, row, &mut sight) {
+                let target = &mut memory.targets[found];
+                memory.record.found(target, &detection.rect);
+                target.restart_motion(&detection, index);
+                work.take_detection(p, target, row, frame, memory.time, ticks);
+                continue;
+            }
             let mut target = work.spare.pop().unwrap_or_else(Target::blank);
-            let detection = work.observations.get(index as usize).detection;
             target.begin(context.ids.take(), &detection, index, context.seed, p.particles as usize);
             target.confirmed = !memory.started || p.confirm_hits <= 1;
-            let image = frame.image.as_ref();
-            appearance_model::learn(p, &mut target, &mut work.observations, index as usize, image, &mut work.swarm.hog);
-            work.regression.learn(p, &mut target, memory.time, Reach::new(p, 1.0));
+            work.learn(p, &mut target, row, frame, memory.time, ticks);
             memory.targets.push(target);
         }
     }
@@ -253,9 +288,9 @@ impl TrackingAlgorithm for GenTrack2 {
             self.associate(frame);
             self.update_strong(frame, ticks);
         }
-        self.update_weak(ticks, detector_ran);
+        self.update_weak(ticks, detector_ran, frame.camera_motion.is_some());
         if detector_ran {
-            self.start_tracks(frame, context);
+            self.start_tracks(frame, context, ticks);
             self.memory.started = true;
             self.memory.since_detector = 0.0;
         }

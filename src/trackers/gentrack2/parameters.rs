@@ -185,6 +185,10 @@ parameters! {
         birth_score: f64 = 0.7, [0.0, 1.0], "", "";
         /// No birth where a track matched or born in this frame overlaps by more than this IoU; 1 turns it off.
         birth_iou: f64 = 0.5, [0.0, 1.0], "", "";
+        /// Before a detection starts a track, targets that went out of sight behind another are asked whether it is one
+        /// of them: it is if its distance from where they were last seen is within their speed, times this, times the
+        /// time they were gone. 0 turns it off.
+        reacquire_reach: f64 = 0.7, [0.0, 100.0], "", "";
         /// Matches in a row, the birth counted, from which a track is confirmed. Births in the first frame are
         /// confirmed at once.
         confirm_hits: i64 = 3, [1, 100], "hits", "";
@@ -215,6 +219,9 @@ parameters! {
         sigma_g: f64 = 0.3, [0.0, 1.0], "", "sigma_g";
         /// Strength of the push away from neighbours that move otherwise; never more than the track's own speed.
         epsilon_s: f64 = 0.05, [0.0, 1.0], "", "epsilon_s";
+        /// Where the frame brings no camera motion, carry weak tracks along with the shift that strong tracks share
+        /// beyond their own velocities.
+        common_motion: bool = true, [], "", "";
         /// Age at which a weak track ends.
         max_age: f64 = 100.0, [1.0, 1e6], "ticks", "partial_max";
         /// History fitness of the global best where there is no image to tell.
@@ -290,6 +297,7 @@ impl GenTrack2Parameters {
                 low_score_gate: 1.0,
                 doubt_score: 0.0,
                 birth_iou: 1.0,
+                reacquire_reach: 0.0,
                 confirm_hits: 1,
                 strong_update: StrongUpdate::Replace,
                 strong_penalty: 0.0,
@@ -300,6 +308,7 @@ impl GenTrack2Parameters {
                 fitness_floor: 0.0,
                 covered_pace: 1.0,
                 epsilon_s: 0.05,
+                common_motion: false,
                 recovery_threshold: 0.8,
                 history: 10,
                 regression_window: 5,

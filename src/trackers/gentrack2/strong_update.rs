@@ -17,6 +17,7 @@ pub fn update(p: &GenTrack2Parameters, target: &mut Target, detection: &Detectio
     target.age = 0.0;
     target.missed = 0.0;
     target.blamed = 0.0;
+    target.covered = 0.0;
     target.missed_frames = 0;
     target.frames_since_match = 0;
     target.last = *detection;

@@ -72,6 +72,8 @@ pub struct Target {
     pub missed: f64,
     /// The same at the pace of [`super::ageing::pace`]: the paper's `l`.
     pub blamed: f64,
+    /// The largest share of its box that another, seen target covered since the last match.
+    pub covered: f64,
     /// Frames without a match on which the detector ran.
     pub missed_frames: u32,
     /// Frames without a match.
@@ -121,6 +123,7 @@ impl Target {
             age: 0.0,
             missed: 0.0,
             blamed: 0.0,
+            covered: 0.0,
             missed_frames: 0,
             frames_since_match: 0,
             hits: 0,
@@ -153,6 +156,7 @@ impl Target {
         self.age = 0.0;
         self.missed = 0.0;
         self.blamed = 0.0;
+        self.covered = 0.0;
         self.missed_frames = 0;
         self.frames_since_match = 0;
         self.hits = 1;
@@ -170,6 +174,15 @@ impl Target {
         self.has_template = false;
         self.embedding.clear();
         self.random = Random::new(seed, id);
+    }
+
+    /// Puts a target at a detection where its motion did not lead: what was known of it is forgotten.
+    pub fn restart_motion(&mut self, detection: &Detection, index: u32) {
+        self.matched = Match::Detection(index);
+        self.state = State::from(detection.rect);
+        self.previous = self.state;
+        self.predicted = self.state;
+        self.history.clear();
     }
 
     /// Whether a detection was taken in this frame: a strong (or new) track.

@@ -1,0 +1,64 @@
+//! What all targets do at once is the camera's doing: the shift that strong tracks share beyond their own velocities.
+//!
+//! Where the camera moves and its motion is not given, velocities lag behind it. Tracks with a detection are put right
+//! by that; unmatched ones are carried along by what the others show.
+
+use super::target::Target;
+use super::velocity_regression::{OrderKey, median};
+
+/// Strong tracks from which their median means the scene and not one of them.
+const QUORUM: usize = 3;
+
+/// Buffers of the medians.
+#[derive(Clone, Debug, Default)]
+pub struct CommonMotion {
+    shifts: Vec<OrderKey>,
+}
+
+impl CommonMotion {
+    /// The median over strong tracks of how far their update moved them from their prediction, in pixels.
+    pub fn shift(&mut self, targets: &[Target]) -> (f64, f64) {
+        let strong = || targets.iter().filter(|t| t.is_strong() && t.hits > 2);
+        if strong().nth(QUORUM - 1).is_none() {
+            return (0.0, 0.0);
+        }
+        let mut of = |get: fn(&Target) -> f64| {
+            self.shifts.clear();
+            self.shifts.extend(strong().map(|t| OrderKey::from(get(t))));
+            median(&mut self.shifts)
+        };
+        (of(|t| t.state.u - t.predicted.u), of(|t| t.state.v - t.predicted.v))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::Detection;
+    use crate::trackers::gentrack2::target::Match;
+
+    /// A strong track with a velocity that its update moved by `(u, v)` from its prediction.
+    fn moved(u: f64, v: f64) -> Target {
+        let mut target = Target::blank();
+        target.begin(1, &Detection::new(10.0, 20.0, 30.0, 40.0, 0.9), 0, 0, 1);
+        target.hits = 3;
+        target.predicted.u = target.state.u - u;
+        target.predicted.v = target.state.v - v;
+        target
+    }
+
+    #[test]
+    fn the_shift_is_the_median_over_strong_tracks() {
+        let mut unseen = moved(100.0, 100.0);
+        unseen.matched = Match::None;
+        let mut new = moved(100.0, 100.0);
+        new.hits = 2;
+        let targets = [moved(4.0, -1.0), unseen, moved(5.0, 0.0), new, moved(-20.0, -3.0)];
+        assert_eq!(CommonMotion::default().shift(&targets), (4.0, -1.0));
+    }
+
+    #[test]
+    fn two_tracks_are_no_scene() {
+        assert_eq!(CommonMotion::default().shift(&[moved(4.0, -1.0), moved(4.0, -1.0)]), (0.0, 0.0));
+    }
+}
