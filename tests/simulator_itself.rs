@@ -223,6 +223,29 @@ mod verdict {
         assert!(got[0].starts_with("object 0 had (frame, id) [(0, 1), (") && got[0].ends_with(", 2)]"), "{got:?}");
     }
 
+    /// Frames in which the two objects' true boxes overlap by this IoU or more.
+    fn frames_together(iou: f64) -> Vec<usize> {
+        let together = |seen: &Observation| seen.truth[0].rect.iou(&seen.truth[1].rect) >= iou;
+        stage::crossing(0, 90.0).play(false).filter(together).map(|seen| seen.frame).collect()
+    }
+
+    #[test]
+    fn takes_no_side_while_two_boxes_coincide_but_knows_who_came_out() {
+        let (coincident, near) = (frames_together(0.5), frames_together(0.3));
+        assert!(coincident.len() >= 3 && near.len() > coincident.len(), "{coincident:?} {near:?}");
+        let swapped = |frames: &[usize]| {
+            complaints(|seen, track| {
+                if frames.contains(&seen.frame) {
+                    track.id = 3 - track.id;
+                }
+            })
+        };
+        assert_eq!(swapped(&coincident), Vec::<String>::new());
+        assert!(swapped(&near).iter().any(|c| c.starts_with("object 0 had (frame, id)")), "{:?}", swapped(&near));
+        let for_good: Vec<usize> = (coincident[0]..1000).collect();
+        assert_eq!(swapped(&for_good).len(), 2);
+    }
+
     #[test]
     fn names_a_second_identity() {
         let got = complaints(|seen, track| {
