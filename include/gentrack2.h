@@ -237,7 +237,7 @@ typedef struct gt2_parameter_info {
     double minimum;
     /// Largest value of a number or integer, otherwise 0.
     double maximum;
-    /// Unit; "" for pure numbers.
+    /// Unit; "" for pure numbers. A tick is 1/30 s.
     const char *unit;
     /// The symbol of the paper that the parameter comes from; "" if it has none.
     const char *symbol;

@@ -34,7 +34,7 @@ pub struct gt2_parameter_info {
     pub minimum: f64,
     /// Largest value of a number or integer, otherwise 0.
     pub maximum: f64,
-    /// Unit; "" for pure numbers.
+    /// Unit; "" for pure numbers. A tick is 1/30 s.
     pub unit: *const c_char,
     /// The symbol of the paper that the parameter comes from; "" if it has none.
     pub symbol: *const c_char,

@@ -4,19 +4,19 @@
 //! by that; unmatched ones are carried along by what the others show.
 
 use super::target::Target;
-use super::velocity_regression::{OrderKey, median};
+use super::velocity_regression::OrderKey;
 
-/// Strong tracks from which their median means the scene and not one of them.
+/// Strong tracks from which what they agree on means the scene and not some of them.
 const QUORUM: usize = 3;
 
-/// Buffers of the medians.
+/// Buffers of the shifts.
 #[derive(Clone, Debug, Default)]
 pub struct CommonMotion {
     shifts: Vec<OrderKey>,
 }
 
 impl CommonMotion {
-    /// The median over strong tracks of how far their update moved them from their prediction, in pixels.
+    /// What most strong tracks agree on of how far their update moved them from their prediction, in pixels.
     pub fn shift(&mut self, targets: &[Target]) -> (f64, f64) {
         let strong = || targets.iter().filter(|t| t.is_strong() && t.hits > 2);
         if strong().nth(QUORUM - 1).is_none() {
@@ -25,10 +25,18 @@ impl CommonMotion {
         let mut of = |get: fn(&Target) -> f64| {
             self.shifts.clear();
             self.shifts.extend(strong().map(|t| OrderKey::from(get(t))));
-            median(&mut self.shifts)
+            agreed(&mut self.shifts)
         };
         (of(|t| t.state.u - t.predicted.u), of(|t| t.state.v - t.predicted.v))
     }
+}
+
+/// The quartile of the shifts nearer to 0, or 0 if that lies between them: noise about a still camera cancels out.
+fn agreed(shifts: &mut [OrderKey]) -> f64 {
+    shifts.sort_unstable();
+    let aside = shifts.len() / 4;
+    let (low, high) = (f64::from(shifts[aside]), f64::from(shifts[shifts.len() - 1 - aside]));
+    low.max(0.0) + high.min(0.0)
 }
 
 #[cfg(test)]
@@ -48,13 +56,20 @@ mod tests {
     }
 
     #[test]
-    fn the_shift_is_the_median_over_strong_tracks() {
+    fn the_shift_is_the_lesser_quartile_over_strong_tracks() {
         let mut unseen = moved(100.0, 100.0);
         unseen.matched = Match::None;
         let mut new = moved(100.0, 100.0);
         new.hits = 2;
-        let targets = [moved(4.0, -1.0), unseen, moved(5.0, 0.0), new, moved(-20.0, -3.0)];
+        // Of four, sorted, the second and third: 4 and 5 to the right, 2 and 1 up.
+        let targets = [moved(4.0, -1.0), unseen, moved(5.0, 0.0), new, moved(-20.0, -3.0), moved(6.0, -2.0)];
         assert_eq!(CommonMotion::default().shift(&targets), (4.0, -1.0));
+    }
+
+    #[test]
+    fn where_they_disagree_the_camera_stands_still() {
+        let targets = [moved(-3.0, -1.0), moved(-2.0, 4.0), moved(1.0, 5.0), moved(3.0, 6.0)];
+        assert_eq!(CommonMotion::default().shift(&targets), (0.0, 4.0));
     }
 
     #[test]

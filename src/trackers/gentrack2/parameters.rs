@@ -222,7 +222,8 @@ parameters! {
         /// Where the frame brings no camera motion, carry weak tracks along with the shift that strong tracks share
         /// beyond their own velocities.
         common_motion: bool = true, [], "", "";
-        /// Age at which a weak track ends.
+        /// Age at which a weak track ends. With the other defaults an uncovered one gets there after 29 ticks without a
+        /// match, so who wants longer lives raises `max_missed` too.
         max_age: f64 = 100.0, [1.0, 1e6], "ticks", "partial_max";
         /// History fitness of the global best where there is no image to tell.
         blind_fitness: f64 = 0.9, [0.0, 1.0], "", "f_g,PSO^h";
@@ -232,7 +233,7 @@ parameters! {
         /// History fitness from which a weak track beside a strong one recovers instead of ageing; 1 turns
         /// recovery off. Needs an image.
         recovery_threshold: f64 = 1.0, [0.0, 1.0], "", "rho_re";
-        /// Time without a match after which a track ends whatever its age.
+        /// Time without a match after which a track ends whatever its age. To lengthen lives raise `max_age` too.
         max_missed: f64 = 30.0, [0.0, 1e6], "ticks", "";
         /// Pace at which time without a match passes for a weak track that is wholly behind a strong one; 1 for one
         /// in the open, in proportion in between. 1 is the paper's text.
