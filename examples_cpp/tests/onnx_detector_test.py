@@ -10,27 +10,8 @@ import os
 import subprocess
 import sys
 import tempfile
-import venv
 
-SKIPPED = 77
-
-
-def enter_venv(directory):
-    """Runs this script again with the Python of a virtual environment that has the package onnx."""
-    python = os.path.join(directory, "bin", "python")
-    if os.path.realpath(sys.prefix) == os.path.realpath(directory):
-        return
-    if subprocess.run([python, "-c", "import onnx"], capture_output=True).returncode if os.path.exists(python) else 1:
-        try:
-            venv.create(directory, with_pip=True, clear=True)
-            install = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "onnx"]
-            subprocess.run(install, check=True, capture_output=True, text=True)
-        except (OSError, subprocess.CalledProcessError) as error:
-            reason = (getattr(error, "stderr", "") or str(error)).strip().splitlines()[-1:]
-            print("SKIPPED: Python's onnx package cannot be installed:", *reason)
-            sys.exit(SKIPPED)
-    os.execv(python, [python] + sys.argv)
-
+import own_venv
 
 WIDTH, HEIGHT = 96, 64  # of the model's input
 LN2 = math.log(2)
@@ -112,7 +93,7 @@ def run(program, directory, model, *more):
 
 def main():
     program, directory = sys.argv[1:3]
-    enter_venv(directory)
+    own_venv.enter(directory, "onnx")
     with tempfile.TemporaryDirectory() as work:
         write_image(f"{work}/1.ppm")
         build_model(f"{work}/good.onnx", (8, 16, 32))
