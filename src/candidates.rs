@@ -1,6 +1,12 @@
 //! Which boxes of two lists overlap, found by a sweep along x instead of by trying all pairs.
+//!
+//! A row has at most [`MOST_PER_ROW`] partners, the nearest ones: no scene has that many boxes on top of each other, but
+//! hostile input has, and all its pairs do not fit into memory.
 
 use crate::geometry::Rect;
+
+/// Most partners of one row.
+pub const MOST_PER_ROW: usize = 64;
 
 /// The sweep, with buffers that are reused from call to call.
 #[derive(Clone, Debug, Default)]
@@ -8,6 +14,9 @@ pub struct OverlapSweep {
     order: Vec<Entry>,
     active: [Vec<u32>; 2],
     pairs: Vec<(u32, u32)>,
+    // For each row the distance from which partners are out: that of its last one, once it had too many.
+    reach: Vec<f64>,
+    ranked: Vec<(f64, u32)>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -18,12 +27,16 @@ struct Entry {
 }
 
 impl OverlapSweep {
-    /// All `(row, column)` whose boxes share an area, sorted by row, then column.
+    /// The `(row, column)` whose boxes share an area, sorted by row, then column.
     pub fn pairs(&mut self, rows: &[Rect], columns: &[Rect]) -> &[(u32, u32)] {
         self.pairs.clear();
+        self.reach.clear();
+        self.reach.resize(rows.len(), f64::INFINITY);
         self.fill_order(rows, columns);
+        let most_pairs = 2 * MOST_PER_ROW * rows.len();
         let lists = [rows, columns];
-        for entry in &self.order {
+        for at in 0..self.order.len() {
+            let entry = self.order[at];
             let (own, other) = (entry.list as usize, 1 - entry.list as usize);
             let rect = &lists[own][entry.index as usize];
             let mut kept = 0;
@@ -36,14 +49,49 @@ impl OverlapSweep {
                 self.active[other][kept] = candidate;
                 kept += 1;
                 if box_.top < rect.bottom() && rect.top < box_.bottom() {
-                    self.pairs.push(if own == 0 { (entry.index, candidate) } else { (candidate, entry.index) });
+                    let pair = if own == 0 { (entry.index, candidate) } else { (candidate, entry.index) };
+                    if distance(rows, columns, pair) < self.reach[pair.0 as usize] {
+                        self.pairs.push(pair);
+                    }
                 }
             }
             self.active[other].truncate(kept);
             self.active[own].push(entry.index);
+            if self.pairs.len() > most_pairs {
+                self.keep_nearest(rows, columns);
+            }
         }
-        self.pairs.sort_unstable();
+        self.keep_nearest(rows, columns);
         &self.pairs
+    }
+
+    /// Sorts the pairs and leaves each row its nearest partners, the first of equally near ones.
+    fn keep_nearest(&mut self, rows: &[Rect], columns: &[Rect]) {
+        self.pairs.sort_unstable();
+        let (mut from, mut kept) = (0, 0);
+        while from < self.pairs.len() {
+            let row = self.pairs[from].0;
+            let count = self.pairs[from..].iter().take_while(|p| p.0 == row).count();
+            if count > MOST_PER_ROW {
+                self.ranked.clear();
+                let of_row = self.pairs[from..from + count].iter();
+                self.ranked.extend(of_row.map(|pair| (distance(rows, columns, *pair), pair.1)));
+                let by_distance = |a: &(f64, u32), b: &(f64, u32)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+                self.ranked.select_nth_unstable_by(MOST_PER_ROW - 1, by_distance);
+                self.reach[row as usize] = self.ranked[MOST_PER_ROW - 1].0;
+                self.ranked.truncate(MOST_PER_ROW);
+                self.ranked.sort_unstable_by_key(|ranked| ranked.1);
+                for ranked in &self.ranked {
+                    self.pairs[kept] = (row, ranked.1);
+                    kept += 1;
+                }
+            } else {
+                self.pairs.copy_within(from..from + count, kept);
+                kept += count;
+            }
+            from += count;
+        }
+        self.pairs.truncate(kept);
     }
 
     fn fill_order(&mut self, rows: &[Rect], columns: &[Rect]) {
@@ -56,6 +104,12 @@ impl OverlapSweep {
         self.order
             .sort_unstable_by(|a, b| a.left.total_cmp(&b.left).then(a.list.cmp(&b.list)).then(a.index.cmp(&b.index)));
     }
+}
+
+/// How far apart the centres of a pair are: the sum of both components.
+fn distance(rows: &[Rect], columns: &[Rect], (row, column): (u32, u32)) -> f64 {
+    let (a, b) = (&rows[row as usize], &columns[column as usize]);
+    0.5 * ((a.left + a.right() - b.left - b.right()).abs() + (a.top + a.bottom() - b.top - b.bottom()).abs())
 }
 
 #[cfg(test)]
@@ -87,5 +141,26 @@ mod tests {
             sweep.pairs(&columns, &rows);
             prop_assert_eq!(sweep.pairs(&rows, &columns), &expected[..]);
         }
+    }
+
+    #[test]
+    fn a_row_keeps_its_nearest_partners_where_too_many_lie_on_top_of_it() {
+        // Three rows at 0, 100 and 1000; 300 columns at 0, 1, 2, ... 299, all overlapping the first two.
+        let at = |left: f64| Rect::new(left, 0.0, 400.0, 10.0);
+        let rows = [at(0.0), at(100.0), at(1000.0)];
+        let columns: Vec<Rect> = (0..300).map(|i| at(i as f64)).collect();
+        let mut sweep = OverlapSweep::default();
+        let pairs = sweep.pairs(&rows, &columns);
+        // 0..=63 for the first; for the second 100 and 31 to each side, and of 68 and 132, equally far, the first.
+        let expected = (0..64).map(|c| (0, c)).chain((68..132).map(|c| (1, c)));
+        assert_eq!(pairs, expected.collect::<Vec<(u32, u32)>>());
+    }
+
+    #[test]
+    fn memory_stays_bounded_where_everything_overlaps() {
+        let rects = vec![Rect::new(0.0, 0.0, 10.0, 10.0); 3000];
+        let mut sweep = OverlapSweep::default();
+        assert_eq!(sweep.pairs(&rects, &rects).len(), MOST_PER_ROW * 3000);
+        assert!(sweep.pairs.capacity() < 4 * 2 * MOST_PER_ROW * 3000, "{}", sweep.pairs.capacity());
     }
 }
