@@ -255,8 +255,8 @@ typedef struct gt2_detection {
     double left;
     /// Top edge in pixels; y points down.
     double top;
-    /// Width in pixels, not negative. A box of zero width or height is accepted but takes part in nothing that
-    /// needs an area: it overlaps no other box.
+    /// Width in pixels, not negative. A box of zero width or height (less than 1e-6) is accepted but belongs to no
+    /// track: it overlaps no other box.
     double width;
     /// Height in pixels, not negative.
     double height;

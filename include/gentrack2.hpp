@@ -270,6 +270,9 @@ private:
         return set_number(key, value, std::is_integral<T>());
     }
     template <class T> gt2_status set_number(const char *key, T value, std::true_type /* integral */) {
+        if (std::is_unsigned<T>::value && static_cast<std::uint64_t>(value) > static_cast<std::uint64_t>(INT64_MAX)) {
+            return gt2_config_set(get(), key, std::to_string(value).c_str());
+        }
         return gt2_config_set_integer(get(), key, static_cast<std::int64_t>(value));
     }
     template <class T> gt2_status set_number(const char *key, T value, std::false_type) {

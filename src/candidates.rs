@@ -6,7 +6,7 @@
 use crate::geometry::Rect;
 
 /// Most partners of one row.
-pub const MOST_PER_ROW: usize = 64;
+pub const MOST_PER_ROW: usize = 32;
 
 /// The sweep, with buffers that are reused from call to call.
 #[derive(Clone, Debug, Default)]
@@ -151,8 +151,8 @@ mod tests {
         let columns: Vec<Rect> = (0..300).map(|i| at(i as f64)).collect();
         let mut sweep = OverlapSweep::default();
         let pairs = sweep.pairs(&rows, &columns);
-        // 0..=63 for the first; for the second 100 and 31 to each side, and of 68 and 132, equally far, the first.
-        let expected = (0..64).map(|c| (0, c)).chain((68..132).map(|c| (1, c)));
+        // 0..=31 for the first; for the second 100 and 15 to each side, and of 84 and 116, equally far, the first.
+        let expected = (0..32).map(|c| (0, c)).chain((84..116).map(|c| (1, c)));
         assert_eq!(pairs, expected.collect::<Vec<(u32, u32)>>());
     }
 

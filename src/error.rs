@@ -1,5 +1,19 @@
 //! What can go wrong, each with the field or row at fault.
 
+/// A number in a message: in digits, or with an exponent where those would fill the line.
+pub(crate) struct Number(pub f64);
+
+impl std::fmt::Display for Number {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let x = self.0;
+        if x == 0.0 || !x.is_finite() || (1e-6..1e15).contains(&x.abs()) {
+            write!(f, "{x}")
+        } else {
+            write!(f, "{x:e}")
+        }
+    }
+}
+
 /// An error of the library. After any of them the object it came from is as it was before the call.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Error {
@@ -22,7 +36,7 @@ pub enum Error {
         reason: String,
     },
     /// Embeddings that do not fit the detections or the frames before, or are not finite.
-    #[error("embeddings.{field}: {reason}")]
+    #[error("frame.{field}: {reason}")]
     Embeddings {
         /// Field at fault.
         field: &'static str,

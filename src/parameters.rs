@@ -1,7 +1,7 @@
 //! Self-describing parameters: each algorithm declares its knobs once, with the `parameters!` macro, and the typed
 //! struct, the defaults, the range checks, the introspection of the C ABI and the documentation all come from there.
 
-use crate::error::Error;
+use crate::error::{Error, Number};
 use crate::geometry::Rect;
 
 /// A parameter's value.
@@ -83,7 +83,10 @@ impl ParameterSpec {
         if number.is_finite() && number >= self.minimum && number <= self.maximum {
             return Ok(());
         }
-        Err(self.refuse(format!("{number} is outside {}..={}", self.minimum, self.maximum)))
+        Err(self.refuse(match value {
+            Value::Integer(i) => format!("{i} is outside {}..={}", self.minimum as i64, self.maximum as i64),
+            _ => format!("{} is outside {}..={}", Number(number), Number(self.minimum), Number(self.maximum)),
+        }))
     }
 
     /// Reads a value of this parameter's kind from text, as on a command line.

@@ -1,6 +1,6 @@
 //! Checks of a frame before any tracker sees it. They read only, so a refused frame leaves no trace.
 
-use crate::error::Error;
+use crate::error::{Error, Number};
 use crate::frame::{CameraMotion, Detection, Embeddings, Frame};
 use crate::parameters::CommonParameters;
 
@@ -53,16 +53,16 @@ fn check_detection(row: usize, detection: &Detection) -> Result<(), Error> {
             return refuse(field, format!("is {x}, must be finite"));
         }
         if x.abs() > MAX_COORDINATE {
-            return refuse(field, format!("is {x}, its absolute value must be at most {MAX_COORDINATE:e}"));
+            return refuse(field, format!("is {}, its absolute value must be at most {MAX_COORDINATE:e}", Number(x)));
         }
     }
     for (field, x) in [("width", r.width), ("height", r.height)] {
         if x < 0.0 {
-            return refuse(field, format!("is {x}, must not be negative"));
+            return refuse(field, format!("is {}, must not be negative", Number(x)));
         }
     }
     if !(0.0..=1.0).contains(&detection.score) {
-        return refuse("score", format!("is {}, must be in 0..=1", detection.score));
+        return refuse("score", format!("is {}, must be in 0..=1", Number(detection.score)));
     }
     Ok(())
 }
@@ -74,13 +74,13 @@ fn check_embeddings(embeddings: &Embeddings<'_>, rows: usize, known: Option<usiz
     let refuse = |field, reason| Err(Error::Embeddings { field, reason });
     let Embeddings { data, dimension, stride } = *embeddings;
     if dimension == 0 || dimension > MAX_EMBEDDING_DIMENSION {
-        return refuse("dimension", format!("is {dimension}, must be in 1..={MAX_EMBEDDING_DIMENSION}"));
+        return refuse("embedding_dimension", format!("is {dimension}, must be in 1..={MAX_EMBEDDING_DIMENSION}"));
     }
     if let Some(known) = known.filter(|k| *k != dimension) {
-        return refuse("dimension", format!("is {dimension}, earlier frames had {known}"));
+        return refuse("embedding_dimension", format!("is {dimension}, earlier frames had {known}"));
     }
     if stride < dimension {
-        return refuse("stride", format!("is {stride}, must be at least the dimension {dimension}"));
+        return refuse("embedding_stride", format!("is {stride}, must be at least embedding_dimension, {dimension}"));
     }
     let needed = match rows {
         0 => Some(0),
@@ -88,11 +88,14 @@ fn check_embeddings(embeddings: &Embeddings<'_>, rows: usize, known: Option<usiz
     };
     match needed {
         Some(needed) if data.len() >= needed => {}
-        _ => return refuse("data", format!("holds {} numbers, too few for {rows} rows", data.len())),
+        _ => return refuse("embeddings", format!("holds {} numbers, too few for {rows} rows", data.len())),
     }
     for row in 0..rows {
         if let Some(column) = embeddings.row(row).iter().position(|x| !x.is_finite()) {
-            return refuse("data", format!("row {row}, component {column} is not finite"));
+            return refuse(
+                "embeddings",
+                format!("row {row}: component {column} is {}, must be finite", embeddings.row(row)[column]),
+            );
         }
     }
     Ok(())
@@ -101,7 +104,9 @@ fn check_embeddings(embeddings: &Embeddings<'_>, rows: usize, known: Option<usiz
 fn check_camera_motion(motion: &CameraMotion) -> Result<(), Error> {
     let m = &motion.0;
     if let Some(index) = m.iter().position(|x| !x.is_finite() || x.abs() > MAX_COORDINATE) {
-        return Err(Error::CameraMotion(format!("element {index} is {}, must be finite", m[index])));
+        let reason =
+            format!("element {index} is {}, must be in -{MAX_COORDINATE:e}..={MAX_COORDINATE:e}", Number(m[index]));
+        return Err(Error::CameraMotion(reason));
     }
     let (kx, ky) = motion.size_factors();
     let determinant = m[0] * m[4] - m[1] * m[3];
@@ -109,7 +114,10 @@ fn check_camera_motion(motion: &CameraMotion) -> Result<(), Error> {
     let sane = |k: f64| (1e-3..=1e3).contains(&k);
     if !sane(kx) || !sane(ky) || determinant.abs() < 1e-6 {
         return Err(Error::CameraMotion(format!(
-            "scales by {kx} and {ky} with determinant {determinant}, must be an invertible map with scales in 0.001..=1000"
+            "scales by {} and {} with determinant {}, must be an invertible map with scales in 0.001..=1000",
+            Number(kx),
+            Number(ky),
+            Number(determinant)
         )));
     }
     Ok(())
@@ -117,7 +125,7 @@ fn check_camera_motion(motion: &CameraMotion) -> Result<(), Error> {
 
 fn check_size(frame: &Frame<'_>) -> Result<(), Error> {
     let Some((width, height)) = frame.size else { return Ok(()) };
-    for (field, side) in [("width", width), ("height", height)] {
+    for (field, side) in [("image_width", width), ("image_height", height)] {
         if side == 0 || side > crate::image::MAX_IMAGE_SIDE {
             let reason = format!("is {side}, must be in 1..={}", crate::image::MAX_IMAGE_SIDE);
             return Err(Error::Frame { field, reason });
@@ -125,8 +133,8 @@ fn check_size(frame: &Frame<'_>) -> Result<(), Error> {
     }
     match frame.image {
         Some(image) if (image.width(), image.height()) != (width, height) => {
-            let reason = format!("is {width}x{height}, the image is {}x{}", image.width(), image.height());
-            Err(Error::Frame { field: "size", reason })
+            let reason = format!("are {width}x{height}, the image is {}x{}", image.width(), image.height());
+            Err(Error::Frame { field: "image_width and image_height", reason })
         }
         _ => Ok(()),
     }
@@ -134,9 +142,9 @@ fn check_size(frame: &Frame<'_>) -> Result<(), Error> {
 
 fn check_timestamp(now: Option<i64>, before: Option<i64>) -> Result<(), Error> {
     match (now, before) {
-        (Some(now), Some(before)) if now <= before => {
-            Err(Error::Timestamp(format!("is {now}, must be greater than the previous frame's {before}")))
-        }
+        (Some(now), Some(before)) if now <= before => Err(Error::Timestamp(format!(
+            "is {now}, must be greater than {before}, the previous frame's (one without counts as a frame later)"
+        ))),
         _ => Ok(()),
     }
 }

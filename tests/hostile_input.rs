@@ -93,12 +93,12 @@ fn bad_embeddings_are_refused() {
     let mut broken = [0.5f32; 16];
     broken[9] = f32::NAN;
     let with = |e| Frame { embeddings: Some(e), ..Frame::new(&detections) };
-    refused("embeddings.dimension: is 0", &with(Embeddings { data: &numbers, dimension: 0, stride: 4 }));
-    refused("embeddings.dimension: is 5", &with(Embeddings::new(&numbers, 5)));
-    refused("embeddings.stride: is 3", &with(Embeddings { data: &numbers, dimension: 4, stride: 3 }));
-    refused("embeddings.data: holds 15", &with(Embeddings::new(&numbers[..15], 4)));
-    refused("embeddings.data: holds 40", &with(Embeddings { data: &numbers, dimension: 4, stride: usize::MAX / 2 }));
-    refused("embeddings.data: row 2, component 1", &with(Embeddings::new(&broken, 4)));
+    refused("frame.embedding_dimension: is 0", &with(Embeddings { data: &numbers, dimension: 0, stride: 4 }));
+    refused("frame.embedding_dimension: is 5", &with(Embeddings::new(&numbers, 5)));
+    refused("frame.embedding_stride: is 3", &with(Embeddings { data: &numbers, dimension: 4, stride: 3 }));
+    refused("frame.embeddings: holds 15", &with(Embeddings::new(&numbers[..15], 4)));
+    refused("frame.embeddings: holds 40", &with(Embeddings { data: &numbers, dimension: 4, stride: usize::MAX / 2 }));
+    refused("frame.embeddings: row 2: component 1 is ", &with(Embeddings::new(&broken, 4)));
 }
 
 #[test]
@@ -129,10 +129,10 @@ fn other_bad_fields_are_refused() {
         refused("timestamp_ns: ", &Frame { timestamp_ns: Some(time), ..good });
     }
     refused("frame.detector_skipped: ", &Frame { detector_skipped: true, ..good });
-    refused("frame.width: ", &Frame { size: Some((0, 100)), ..good });
-    refused("frame.height: ", &Frame { size: Some((100, 70_000)), ..good });
+    refused("frame.image_width: ", &Frame { size: Some((0, 100)), ..good });
+    refused("frame.image_height: ", &Frame { size: Some((100, 70_000)), ..good });
     let image = Some(view(&image, WIDTH, HEIGHT));
-    refused("frame.size: ", &Frame { size: Some((WIDTH, HEIGHT + 1)), image, ..good });
+    refused("frame.image_width and image_height: ", &Frame { size: Some((WIDTH, HEIGHT + 1)), image, ..good });
 }
 
 #[test]
@@ -219,6 +219,55 @@ fn boxes_of_every_magnitude_stay_finite() {
             watched.step(&Frame { image, ..Frame::new(&detections) });
         }
     }
+}
+
+/// Eleven neighbouring targets, each reported two or three times: ties wherever costs are compared.
+#[test]
+fn everything_may_be_reported_several_times() {
+    for preset in ["default", "paper"] {
+        for copies in [2, 3] {
+            let mut config = Config::new("gentrack2").unwrap();
+            config.set_text("preset", preset).unwrap();
+            let mut tracker = Tracker::new(&config).unwrap();
+            for t in 0..40 {
+                let one = |i: usize| Detection::new(24.0 * (i / copies) as f64 + t as f64, 50.0, 40.0, 100.0, 0.9);
+                let detections: Vec<Detection> = (0..11 * copies).map(one).collect();
+                tracker.step(&Frame::new(&detections)).unwrap();
+            }
+            // The paper has no rule against births on top of each other.
+            let expected = if preset == "paper" { 11 * copies } else { 11 };
+            assert_eq!(tracker.output().reported.len(), expected, "{preset}, {copies} copies");
+        }
+    }
+}
+
+/// Without the rule against births on top of each other every one of them is a track.
+#[test]
+fn thousands_on_one_spot_are_no_trouble() {
+    let mut config = Config::new("gentrack2").unwrap();
+    config.set_text("preset", "paper").unwrap();
+    let mut tracker = Tracker::new(&config).unwrap();
+    let detections = vec![Detection::new(100.0, 100.0, 40.0, 80.0, 0.9); 3000];
+    for _ in 0..2 {
+        tracker.step(&Frame::new(&detections)).unwrap();
+    }
+    assert!(tracker.output().reported.len() >= 3000);
+}
+
+#[test]
+fn targets_that_shrink_to_nothing_end_and_their_fitness_stays_a_number() {
+    let mut watched = Watched::new();
+    for _ in 0..10 {
+        watched.step(&Frame::new(&[Detection::new(100.0, 100.0, 40.0, 100.0, 0.9)]));
+    }
+    let shrink = CameraMotion([2e-3, 0.0, 0.0, 0.0, 2e-3, 0.0]);
+    for frame in 0..100 {
+        watched.step(&Frame { camera_motion: Some(shrink), ..Frame::skipped() });
+        if let Ok(particles) = watched.tracker.particles(1) {
+            assert!(particles.iter().all(|p| (0.0..=1.0).contains(&p.fitness)), "frame {frame}: {particles:?}");
+        }
+    }
+    assert_eq!(watched.contract.ended().iter().copied().collect::<Vec<_>>(), [1]);
 }
 
 #[test]

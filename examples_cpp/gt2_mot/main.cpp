@@ -36,7 +36,7 @@ int main(int argc, char **argv) {
     try {
         const auto options = gt2_mot::parse_options(std::vector<std::string>(argv + 1, argv + argc));
         if (options.help) {
-            std::fputs(gt2_mot::usage, stdout);
+            std::fputs(gt2_mot::usage().c_str(), stdout);
             return EXIT_SUCCESS;
         }
         gt2_mot::run(options);

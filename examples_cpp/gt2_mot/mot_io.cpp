@@ -27,6 +27,9 @@ void for_each_line(std::string_view text, Visit visit) {
 
 std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
+/// The library's limit, asked for here to be able to name the line.
+constexpr double max_coordinate = 1e12;
+
 struct ParsedRow {
     long frame;
     DetectionRow detection;
@@ -48,6 +51,11 @@ ParsedRow parse_detection(const std::string &path, long line, std::string_view t
     const auto frame = parse_integer(fields[0]);
     if (!frame || *frame < 1 || *frame > max_frame) {
         bad_row(path, line, "frame " + quoted(fields[0]) + " is not an integer in 1.." + std::to_string(max_frame));
+    }
+    for (int i = 2; i < 6; ++i) {
+        if (std::abs(values[i]) > max_coordinate) {
+            bad_row(path, line, std::string(names[i]) + " " + quoted(fields[i]) + " is beyond 1e12 pixels");
+        }
     }
     for (int i = 4; i < 6; ++i) {
         if (values[i] <= 0) bad_row(path, line, std::string(names[i]) + " " + quoted(fields[i]) + " is not above 0");
@@ -114,6 +122,7 @@ DetectionFile read_detections(const std::string &path, const DetectionOptions &o
 std::vector<Affine> read_camera_motion(const std::string &path) {
     const std::string text = read_file(path);
     std::vector<Affine> motions;
+    long first = 0;
     for_each_line(text, [&](long number, std::string_view line) {
         const auto fields = split_blanks(line);
         if (fields.size() != 7) {
@@ -121,12 +130,20 @@ std::vector<Affine> read_camera_motion(const std::string &path) {
                     "expected a frame number and 6 numbers of a 2x3 matrix, found " + std::to_string(fields.size()) +
                         " fields");
         }
-        Affine motion{};
+        double values[7];
         for (std::size_t i = 0; i < 7; ++i) {
             const auto value = parse_number(fields[i]);
             if (!value) bad_row(path, number, quoted(fields[i]) + " is not a finite number");
-            if (i > 0) motion[i - 1] = *value;
+            values[i] = *value;
         }
+        // A line per frame, counted from 0 or 1: a gap would shift all that follow.
+        if (motions.empty() && values[0] == 1) first = 1;
+        const long expected = first + static_cast<long>(motions.size());
+        if (values[0] != static_cast<double>(expected)) {
+            bad_row(path, number, "frame " + quoted(fields[0]) + " where " + std::to_string(expected) + " is expected");
+        }
+        Affine motion{};
+        std::copy(values + 1, values + 7, motion.begin());
         motions.push_back(motion);
     });
     return motions;

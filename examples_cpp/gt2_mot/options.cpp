@@ -1,19 +1,26 @@
 #include "options.hpp"
 
+#include <filesystem>
 #include <functional>
 #include <map>
+#include <string_view>
+#include <system_error>
+
+#include <gentrack2.h>
 
 #include "mot_io.hpp"
 #include "text.hpp"
 
 namespace gt2_mot {
 
-const char *const usage =
+namespace {
+
+const char *const manual =
     R"(usage: gt2_mot --tracker NAME (--det FILE | --detector hog | --detector onnx:FILE) --out FILE [options]
 
 Tracks the objects of a video or of a file of detections and writes MOTChallenge rows.
 
-  --tracker NAME       gentrack2 sort deepsort bytetrack botsort ocsort smiletrack conftrack
+  --tracker NAME       @NAMES@
   --det FILE           detections: frame,id,left,top,width,height,score,... with frames from 1 and scores in 0..1
   --detector hog       find people with OpenCV's HOG detector
   --detector onnx:FILE find people with a YOLOX-style model
@@ -47,6 +54,16 @@ Tracks the objects of a video or of a file of detections and writes MOTChallenge
 
 Settings are applied in this order, later ones win: frame rate of the video, --config, --set, --seed, --fps.
 )";
+
+}  // namespace
+
+std::string usage() {
+    static constexpr std::string_view placeholder = "@NAMES@";
+    std::string names, text = manual;
+    for (std::size_t i = 0; i < gt2_algorithm_count(); ++i) names += (i ? " " : "") + std::string(gt2_algorithm_name(i));
+    return text.replace(text.find(placeholder), placeholder.size(), names);
+}
+
 
 namespace {
 
@@ -93,7 +110,7 @@ public:
         const auto cross = text.find('x');
         const auto width = parse_integer(std::string_view(text).substr(0, cross));
         const auto height = cross == std::string::npos ? std::nullopt : parse_integer(text.substr(cross + 1));
-        if (!width || !height || *width < 1 || *height < 1 || *width > 65536 || *height > 65536) {
+        if (!width || !height || *width < 1 || *height < 1 || *width > 65535 || *height > 65535) {
             refuse(text, "WIDTHxHEIGHT in pixels, such as 1920x1080");
         }
         return {static_cast<int>(*width), static_cast<int>(*height)};
@@ -136,6 +153,14 @@ void check_together(const Options &o) {
     if (has_images && o.size) throw UserError("--size is for runs without --video and --images");
     const bool draws = !o.annotate.empty() || !o.sheet.empty();
     if (draws && !has_images && !o.size) throw UserError("drawing needs --video, --images or --size");
+    for (const std::string *in : {&o.det, &o.video, &o.gmc, &o.embeddings, &o.config}) {
+        for (const std::string *out : {&o.out, &o.save_det, &o.annotate, &o.sheet}) {
+            std::error_code absent;
+            if (!in->empty() && std::filesystem::equivalent(*in, *out, absent)) {
+                throw UserError(*out + ": would overwrite what is read from it");
+            }
+        }
+    }
     if (o.particles && !draws) throw UserError("--particles needs --annotate or --sheet");
     if (!o.sheet_frames.empty() && o.sheet.empty()) throw UserError("--sheet-frames needs --sheet");
 }
@@ -156,7 +181,7 @@ Options parse_options(const std::vector<std::string> &arguments) {
         {"--images", [&] { o.images = r.value(); }},
         {"--gmc", [&] { o.gmc = r.value(); }},
         {"--embeddings", [&] { o.embeddings = r.value(); }},
-        {"--dim", [&] { o.dimension = static_cast<int>(r.integer(1, 65536)); }},
+        {"--dim", [&] { o.dimension = static_cast<int>(r.integer(1, 16384)); }},
         {"--min-score", [&] { o.min_score = r.number(0, 1, "a number in 0..1"); }},
         {"--max-height", [&] { o.max_height = r.number(0, 1e6, "a number of pixels"); }},
         {"--normalise-scores", [&] { o.normalise_scores = true; }},

@@ -39,6 +39,6 @@ struct Options {
 Options parse_options(const std::vector<std::string> &arguments);
 
 /// What `--help` prints.
-extern const char *const usage;
+std::string usage();
 
 }  // namespace gt2_mot

@@ -35,10 +35,10 @@ struct Inputs {
 
     long last_row() const { return std::max(file.last_frame, static_cast<long>(motions.size())); }
 
-    /// The number of frames to step, 0 for "until the images end".
-    long length(const Options &o) const {
+    /// The number of frames to step; none for "until the images end".
+    std::optional<long> length(const Options &o) const {
         if (o.frames) return *o.frames;
-        return source.has_images() ? 0 : last_row();
+        return source.has_images() ? std::nullopt : std::optional<long>(last_row());
     }
 };
 
@@ -125,14 +125,14 @@ void run(const Options &o) {
     RowWriter out(o.out);
     std::optional<RowWriter> detections;
     if (!o.save_det.empty()) detections.emplace(o.save_det);
-    const long length = inputs.length(o);
-    const long expected = length > 0 ? length : inputs.source.expected_frames();
+    const std::optional<long> length = inputs.length(o);
+    const long expected = length ? *length : inputs.source.expected_frames();
     Drawing drawing(o, session.frame_rate(), expected);
     Progress progress(expected);
     StepTimes times;
 
     long frame = 1;
-    for (cv::Mat image; length == 0 || frame <= length; ++frame) {
+    for (cv::Mat image; !length || frame <= *length; ++frame) {
         if (inputs.source.has_images() && !inputs.source.read(image)) break;
         progress.at(frame);
         const FrameRows rows = rows_of(frame, image, inputs);

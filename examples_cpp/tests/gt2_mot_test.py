@@ -104,6 +104,16 @@ class Results(Case):
         gmc = self.file("gmc.txt", "".join(f"{k} 1 0 0 0 1 0\n" for k in range(27)))
         self.assertIn("steps 27,", steps("--gmc", gmc))
 
+    def test_no_detections_are_no_frames(self):
+        for content in ("", "\n\n"):
+            self.assertEqual(self.tracks("--det", self.file("det.txt", content)), "")
+        self.assertEqual(self.tracks("--det", self.file("det.txt", ""), "--frames", 5), "")
+
+    def test_everything_reported_twice(self):
+        rows = walk(40)
+        det = self.file("det.txt", text_of([row for row in rows for _ in range(2)]))
+        self.assertEqual(len({line.split(",")[1] for line in self.tracks("--det", det).splitlines()}), 3)
+
     def test_time_is_one_line_of_the_tracker_alone(self):
         det = self.file("det.txt", text_of(walk(20)))
         done = self.run_program("--tracker", "gentrack2", "--det", det, "--out", os.devnull, "--time")
@@ -200,6 +210,7 @@ class Mistakes(Case):
             ("2,-1,ten,10,20,40,0.9", 'left "ten" is not a finite number'),
             ("2,-1,10,nan,20,40,0.9", 'top "nan" is not a finite number'),
             ("2,-1,10,10,inf,40,0.9", 'width "inf" is not a finite number'),
+            ("2,-1,-2e12,10,20,40,0.9", 'left "-2e12" is beyond 1e12 pixels'),
             ("2,-1,10,10,0,40,0.9", 'width "0" is not above 0'),
             ("2,-1,10,10,20,-4,0.9", 'height "-4" is not above 0'),
             ("2,-1,10,10,20,40,", 'score "" is not a finite number'),
@@ -210,7 +221,8 @@ class Mistakes(Case):
                 self.refused_det(f"bad.txt:3: {reason}", self.good + "\n" + row + "\n" + self.good)
 
     def test_bad_camera_motion(self):
-        for line, reason in (("2 1 0 0 0 1", "found 6 fields"), ("2 1 0 x 0 1 0", '"x" is not a finite number')):
+        for line, reason in (("2 1 0 0 0 1", "found 6 fields"), ("2 1 0 x 0 1 0", '"x" is not a finite number'),
+                             ("3 1 0 0 0 1 0", 'frame "3" where 2 is expected')):
             with self.subTest(line=line):
                 gmc = self.file("gmc.txt", "1\t1\t0\t0\t0\t1\t0\t\n" + line + "\n")
                 self.refused_det("gmc.txt:2: ", self.good, "--gmc", gmc)
@@ -222,6 +234,12 @@ class Mistakes(Case):
         embeddings = self.file("e.f32", bytes(4 * 5))
         self.refused_det("are 16", self.good, "--embeddings", embeddings, "--dim", 4)
         self.refused_det("--embeddings and --dim need each other", self.good, "--embeddings", embeddings)
+
+    def test_inputs_are_not_overwritten(self):
+        det = self.file("det.txt", self.good)
+        self.refused("would overwrite what is read from it", "--tracker", "gentrack2", "--det", det, "--out", det)
+        with open(det) as file:
+            self.assertEqual(file.read(), self.good)
 
     def test_missing_files(self):
         gone = self.path("gone")

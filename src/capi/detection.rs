@@ -14,8 +14,8 @@ pub struct gt2_detection {
     pub left: f64,
     /// Top edge in pixels; y points down.
     pub top: f64,
-    /// Width in pixels, not negative. A box of zero width or height is accepted but takes part in nothing that
-    /// needs an area: it overlaps no other box.
+    /// Width in pixels, not negative. A box of zero width or height (less than 1e-6) is accepted but belongs to no
+    /// track: it overlaps no other box.
     pub width: f64,
     /// Height in pixels, not negative.
     pub height: f64,
@@ -53,8 +53,10 @@ pub(super) unsafe fn read_detections(
         return Err(Error::Limit { what: "detections", count, limit, parameter: "max_detections" }.into());
     }
     let stride = if stride == 0 { FIRST_SIZE } else { stride };
-    if stride < FIRST_SIZE || count.checked_mul(stride).is_none_or(|bytes| bytes > isize::MAX as usize) {
-        return Err(Failure::argument(format!("frame.detection_stride: is {stride}, must be at least {FIRST_SIZE}")));
+    let most = isize::MAX as usize / count;
+    if !(FIRST_SIZE..=most).contains(&stride) {
+        let reason = format!("is {stride}, must be in {FIRST_SIZE}..={most} for {count} detections");
+        return Err(Failure::argument(format!("frame.detection_stride: {reason}")));
     }
     into.reserve(count);
     for row in 0..count {

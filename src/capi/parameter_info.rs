@@ -48,6 +48,6 @@ pub struct gt2_parameter_info {
 
 // SAFETY: repr(C), size first, raw pointers and numbers only.
 unsafe impl SizedStruct for gt2_parameter_info {
-    const NAME: &'static str = "parameter_info";
+    const NAME: &'static str = "info";
     const FIRST_SIZE: usize = size_of::<gt2_parameter_info>();
 }

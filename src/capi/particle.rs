@@ -61,6 +61,6 @@ pub struct gt2_particle_list {
 
 // SAFETY: repr(C), size first, raw pointers and integers only.
 unsafe impl SizedStruct for gt2_particle_list {
-    const NAME: &'static str = "particle_list";
+    const NAME: &'static str = "out";
     const FIRST_SIZE: usize = size_of::<gt2_particle_list>();
 }

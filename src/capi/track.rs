@@ -79,7 +79,7 @@ pub struct gt2_track_list {
 
 // SAFETY: repr(C), size first, raw pointers and integers only.
 unsafe impl SizedStruct for gt2_track_list {
-    const NAME: &'static str = "track_list";
+    const NAME: &'static str = "out";
     const FIRST_SIZE: usize = size_of::<gt2_track_list>();
 }
 

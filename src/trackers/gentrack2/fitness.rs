@@ -30,7 +30,9 @@ impl Weights {
 
 /// `f_m` of eq. 5: 1 at no distance, 0 from `limit` pixels on.
 pub fn motion(a: &State, b: &State, limit: f64) -> f64 {
-    1.0 - a.distance(b).min(limit) / limit
+    let distance = a.distance(b);
+    // The limit of a box that a camera motion shrank to nothing is 0.
+    if distance < limit { 1.0 - distance / limit } else { 0.0 }
 }
 
 /// `f` of eq. 5. Without appearance the motion term has all the weight.

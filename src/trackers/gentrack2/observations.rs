@@ -3,8 +3,10 @@
 
 use crate::appearance::{Descriptor, HogWorkspace};
 use crate::frame::{Detection, Embeddings, Frame};
-use crate::geometry::State;
+use crate::geometry::{Rect, State};
 use crate::image::ImageView;
+
+use super::removal::SMALLEST;
 
 /// One usable detection.
 #[derive(Clone, Debug)]
@@ -38,11 +40,12 @@ pub struct Observations {
 }
 
 impl Observations {
-    /// Takes the detections of at least `min_score` and with an area. The order is by score, then box, so that
+    /// Takes the detections of at least `min_score` and with an area worth the name. The order is by score, then box, so that
     /// permuting the caller's rows changes nothing.
     pub fn prepare(&mut self, frame: &Frame<'_>, min_score: f64) {
         self.list.clear();
-        let usable = |d: &Detection| d.score >= min_score && d.rect.area() > 0.0;
+        let has_area = |r: &Rect| r.width >= SMALLEST && r.height >= SMALLEST;
+        let usable = |d: &Detection| d.score >= min_score && has_area(&d.rect);
         let rows = frame.detections.iter().enumerate().filter(|(_, d)| usable(d));
         self.list.extend(rows.map(|(row, d)| Observed {
             row: row as u32,

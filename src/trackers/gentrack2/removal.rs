@@ -5,6 +5,8 @@ use super::target::Target;
 
 /// Largest size and coordinate of a state in pixels; beyond it a box means nothing and arithmetic loses its digits.
 const LARGEST: f64 = 1e13;
+/// Smallest width and height of a state in pixels.
+pub const SMALLEST: f64 = 1e-6;
 
 /// Whether a target's life ends in this frame.
 pub fn is_expired(p: &GenTrack2Parameters, target: &Target, frame_size: Option<(u32, u32)>) -> bool {
@@ -25,7 +27,7 @@ pub fn is_outside(target: &Target, frame_size: Option<(u32, u32)>) -> bool {
 fn is_sane(target: &Target) -> bool {
     let s = &target.state;
     let finite = [s.u, s.v, s.w, s.h].iter().all(|x| x.abs() <= LARGEST);
-    finite && s.w > 0.0 && s.h > 0.0
+    finite && s.w >= SMALLEST && s.h >= SMALLEST
 }
 
 #[cfg(test)]
@@ -80,7 +82,7 @@ mod tests {
     #[test]
     fn states_that_mean_nothing_end() {
         let p = GenTrack2Parameters::default();
-        for (u, w) in [(f64::NAN, 10.0), (1e14, 10.0), (0.0, 0.0), (0.0, f64::INFINITY)] {
+        for (u, w) in [(f64::NAN, 10.0), (1e14, 10.0), (0.0, 0.0), (0.0, 1e-7), (0.0, f64::INFINITY)] {
             let mut target = weak(1.0);
             (target.state.u, target.state.w) = (u, w);
             assert!(is_expired(&p, &target, None), "{u} {w}");
