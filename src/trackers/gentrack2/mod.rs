@@ -104,20 +104,6 @@ struct Workspace {
 }
 
 impl Workspace {
-    /// Updates a matched target and lets it learn from its detection.
-    fn take_detection(
-        &mut self,
-        p: &GenTrack2Parameters,
-        target: &mut Target,
-        index: usize,
-        frame: &Frame<'_>,
-        time: f64,
-        ticks: f64,
-    ) {
-        strong_update::update(p, target, &self.observations.get(index).detection);
-        self.learn(p, target, index, frame, time, ticks);
-    }
-
     /// Lets a target learn looks and velocity from its detection.
     fn learn(
         &mut self,
@@ -190,12 +176,14 @@ impl GenTrack2 {
         for target in &mut memory.targets {
             let Some(index) = target.matched.index() else { continue };
             let observed = work.observations.get(index);
+            let (detection, detected) = (observed.detection, observed.state);
             if target.missed > 0.0 {
-                memory.record.found(target, &observed.detection.rect);
-            } else if residual::is_telling(target, &observed.detection) {
-                target.residual.learn(&mut memory.scene, &target.predicted, &observed.state);
+                memory.record.found(target, &detection.rect);
+            } else if residual::is_telling(target, &detection) {
+                target.residual.learn(&mut memory.scene, &target.predicted, &detected);
             }
-            work.take_detection(p, target, index, frame, memory.time, ticks);
+            strong_update::update(p, target, &detection);
+            work.learn(p, target, index, frame, memory.time, ticks);
         }
     }
 
@@ -242,7 +230,8 @@ impl GenTrack2 {
                 let target = &mut memory.targets[found];
                 memory.record.found(target, &detection.rect);
                 target.restart_motion(&detection, index);
-                work.take_detection(p, target, row, frame, memory.time, ticks);
+                strong_update::update(p, target, &detection);
+                work.learn(p, target, row, frame, memory.time, ticks);
                 continue;
             }
             let mut target = work.spare.pop().unwrap_or_else(Target::blank);
