@@ -6,7 +6,7 @@ mod simulator;
 
 use std::collections::BTreeSet;
 
-use gentrack2::{Config, Detection, Frame, Track, TrackState};
+use gentrack2::{Config, Detection, Frame, Track, TrackState, Tracker};
 use simulator::contract::{Contract, all_tracks};
 use simulator::driver::{Feed, tracker};
 use simulator::scene::Scene;
@@ -43,6 +43,20 @@ scenario!(side_by_side_while_one_is_undetected, |seed| stage::side_by_side(seed,
 scenario!(turn_while_hidden, stage::turn_while_hidden);
 scenario!(entering_and_leaving, stage::entering_and_leaving);
 scenario!(ten_targets_with_thirty_percent_misses, |seed| stage::ten_targets(seed, 0.3));
+
+/// To motion alone the two have passed each other; the image tells that they turned back.
+#[test]
+fn looks_decide_where_motion_misleads() {
+    let kept = |image: bool| {
+        let keeps = |seed: &u64| {
+            let feed = Feed { seed: *seed, ..Feed::with_image(image) };
+            judge(&stage::meeting_and_turning_back(*seed), feed).complaints().is_empty()
+        };
+        (0..20).filter(keeps).count()
+    };
+    let (with, without) = (kept(true), kept(false));
+    assert!(with >= 15 && without <= 5, "kept in {with} of 20 with the image, in {without} without");
+}
 
 mod moving_camera {
     use super::*;
@@ -306,6 +320,32 @@ mod bookkeeping {
             contract.check(seen, output);
         }
         assert_eq!(contract.ended().len(), 100);
+    }
+
+    #[test]
+    fn discarded_particles_are_drawn_again_in_the_next_frame() {
+        let mut config = Config::new("gentrack2").unwrap();
+        for (key, value) in [("particles", "8"), ("resampling", "discard"), ("resampling_fraction", "0.5")] {
+            config.set_text(key, value).unwrap();
+        }
+        let mut tracker = Tracker::new(&config).unwrap();
+        let detections = [Detection::new(10.0, 10.0, 40.0, 100.0, 0.9)];
+        tracker.step(&Frame::new(&detections)).unwrap();
+        for frame in 1..20 {
+            tracker.step(&Frame::new(&detections)).unwrap();
+            assert_eq!(tracker.particles(1).unwrap().len(), 4, "frame {frame}");
+        }
+    }
+
+    #[test]
+    fn no_more_tracks_are_born_than_allowed() {
+        let mut config = Config::new("gentrack2").unwrap();
+        config.set_text("max_tracks", "3").unwrap();
+        let mut tracker = Tracker::new(&config).unwrap();
+        let detections: Vec<_> = (0..8).map(|i| Detection::new(90.0 * i as f64, 10.0, 40.0, 100.0, 0.9)).collect();
+        for _ in 0..10 {
+            assert_eq!(all_tracks(tracker.step(&Frame::new(&detections)).unwrap()).count(), 3);
+        }
     }
 
     #[test]

@@ -73,6 +73,17 @@ fn the_turn_happens_out_of_sight() {
 }
 
 #[test]
+fn those_who_turn_back_are_on_top_of_each_other_and_then_where_they_came_from() {
+    for seed in 0..10 {
+        let scene = stage::meeting_and_turning_back(seed);
+        let at = |object: usize, t: f64| scene.objects[object].path.at(t).unwrap().0;
+        assert!((at(0, 2.5) - at(1, 2.5)).abs() < 10.0, "seed {seed}");
+        assert!((0..2).all(|o| (at(o, 5.0) - at(o, 0.0)).abs() < 1.0), "seed {seed}");
+        assert!(frames_below(&scene, 1, 0.3) >= 5, "seed {seed}");
+    }
+}
+
+#[test]
 fn images_show_the_nearer_object() {
     // A small object stands before a big one: with either taken away, only its own pixels change.
     let standing =

@@ -22,18 +22,6 @@ pub fn cosine(a: &Descriptor, b: &Descriptor) -> f32 {
     dot(a, b).min(1.0)
 }
 
-/// Exponential moving average of a template: `keep * template + (1 - keep) * observed`, scaled to unit norm again.
-/// `keep` is in `[0, 1]`. An empty observation leaves the template as it is.
-pub fn blend(template: &mut Descriptor, observed: &Descriptor, keep: f32) {
-    if *observed == EMPTY {
-        return;
-    }
-    for (t, o) in template.iter_mut().zip(observed) {
-        *t = keep * *t + (1.0 - keep) * o;
-    }
-    normalize(template);
-}
-
 /// Scales to unit Euclidean norm; an all-zero vector stays.
 pub(super) fn normalize(descriptor: &mut Descriptor) {
     let squared = dot(descriptor, descriptor);
@@ -92,16 +80,5 @@ mod tests {
         let mut zero = EMPTY;
         normalize(&mut zero);
         assert_eq!(zero, EMPTY);
-    }
-
-    #[test]
-    fn blend_averages_and_stays_a_unit_vector() {
-        // .75 e0 + .25 e1 has norm sqrt(.625) = .790569: (.948683, .316228).
-        let mut t = from_values(&[(0, 1.0)]);
-        blend(&mut t, &from_values(&[(1, 1.0)]), 0.75);
-        assert!((t[0] - 0.948_683).abs() < 1e-6 && (t[1] - 0.316_228).abs() < 1e-6);
-        let before = t;
-        blend(&mut t, &EMPTY, 0.75);
-        assert_eq!(t, before);
     }
 }

@@ -5,7 +5,7 @@
 //! orientations at every sample, and the votes are summed up from the left-top corner, all bins of one corner side by
 //! side. The votes inside any rectangle of samples are then four look-ups of one vector register each.
 
-use super::descriptor::{CELLS_X, CELLS_Y, Descriptor, normalize};
+use super::descriptor::{CELLS_X, CELLS_Y, Descriptor, EMPTY, normalize};
 use super::gray::sample_row;
 use super::orientation::{BINS, Directions, MAX_VOTE};
 use crate::geometry::Rect;
@@ -142,8 +142,8 @@ impl HogWorkspace {
         true
     }
 
-    /// Writes the descriptor of `candidate` (pixels) and returns true; or returns false and leaves `out` alone when the
-    /// candidate is smaller than [`MIN_WIDTH`] x [`MIN_HEIGHT`] or than a quarter of the reference's sides, leaves the
+    /// Writes the descriptor of `candidate` (pixels) and returns true; or returns false where there is nothing to
+    /// compare: without any texture, with `out` then [`EMPTY`], or, with `out` left alone, when the candidate is smaller than [`MIN_WIDTH`] x [`MIN_HEIGHT`] or than a quarter of the reference's sides, leaves the
     /// region, sticks out of the image by more than half a cell (1/8 of its width, 1/16 of its height), is not finite,
     /// or when there is no region. The edges of the cells are rounded to the region's samples: 1/24 of the
     /// reference's width, 1/48 of its height.
@@ -161,7 +161,7 @@ impl HogWorkspace {
             above = below;
         }
         normalize(out);
-        true
+        *out != EMPTY
     }
 
     /// Grid lines of the candidate's cells, and the corners in a row of the grid.
@@ -324,9 +324,9 @@ mod tests {
     }
 
     #[test]
-    fn no_texture_gives_the_empty_descriptor() {
+    fn without_texture_there_is_nothing_to_compare() {
         let data = picture(|_, _| 77);
-        assert_eq!(described(&gray(&data), &BOX, 1.6, &BOX), Some(EMPTY));
+        assert_eq!(described(&gray(&data), &BOX, 1.6, &BOX), None);
     }
 
     #[test]

@@ -86,6 +86,21 @@ pub fn turn_while_hidden(seed: u64) -> Scene {
     mirrored(Scene::new(seed, 6.0, vec![standing, Object::new(36.0, 90.0, 2.0, path)]))
 }
 
+/// Two walkers meet in the middle, one right behind the other, and both turn back: to motion alone they have passed
+/// each other, only their looks tell.
+pub fn meeting_and_turning_back(seed: u64) -> Scene {
+    let mut vary = variation(seed);
+    let (speed, y) = (WALK * vary.between(0.9, 1.1), 288.0 + vary.between(-40.0, 40.0));
+    let height = vary.between(92.0, 106.0);
+    let mut walker = |side: f64, depth: f64| {
+        let start = 384.0 - side * (2.5 * speed + 3.0);
+        let path = Path::from(0.0, start, y).walk(side * speed, 0.0, 2.5).walk(-side * speed, 0.0, 5.0);
+        Object::new(0.4 * height, height * vary.between(0.99, 1.01), depth, path)
+    };
+    let (left, right) = (walker(1.0, 1.0), walker(-1.0, 2.0));
+    mirrored(Scene::new(seed, 5.0, vec![left, right]))
+}
+
 /// Nine targets cross the image one after the other, in three lanes and both directions; each enters at an edge and
 /// leaves at the other, and where one has left another comes in a second later.
 pub fn entering_and_leaving(seed: u64) -> Scene {

@@ -14,7 +14,7 @@ use super::target::Target;
 pub fn age(p: &GenTrack2Parameters, target: &mut Target, beside_strong: bool, ticks: f64) {
     let entrance = entrance_penalty(p, target);
     let fitness = target.global_fitness.max(p.fitness_floor);
-    let can_recover = p.recovery_threshold < 1.0 && target.has_template && beside_strong;
+    let can_recover = p.recovery_threshold < 1.0 && target.looked_at && beside_strong;
     let trust = if can_recover { sign(p.recovery_threshold - fitness + entrance) } else { 1.0 };
     let step = trust * growth(p, target.blamed) * (1.0 - fitness + entrance) * ticks;
     target.penalty = (target.penalty + step).clamp(0.0, 1.0);
@@ -54,7 +54,7 @@ mod tests {
         target.begin(1, &Detection::new(0.0, 0.0, 20.0, 20.0, 0.9), 0, 0, 1);
         target.global_fitness = fitness;
         target.blamed = blamed;
-        target.has_template = true;
+        target.looked_at = true;
         target
     }
 
@@ -84,7 +84,11 @@ mod tests {
         age(&parameters(), &mut target, true, 1.0);
         assert!((target.penalty - (0.5 - 0.039_346_934_029)).abs() < 1e-9);
         assert!((target.age - (30.0 - 60.0 * 0.039_346_934_029)).abs() < 1e-7);
-        // Alone, or not fit enough, it ages.
+        // Alone, or not fit enough, or where nobody could look, it ages.
+        let mut unseen = weak(0.9, 10.0);
+        unseen.looked_at = false;
+        age(&parameters(), &mut unseen, true, 1.0);
+        assert!(unseen.penalty > 0.0);
         for (fitness, beside) in [(0.9, false), (0.7, true)] {
             let mut target = weak(fitness, 10.0);
             age(&parameters(), &mut target, beside, 1.0);

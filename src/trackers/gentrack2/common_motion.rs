@@ -18,7 +18,7 @@ pub struct CommonMotion {
 impl CommonMotion {
     /// What most strong tracks agree on of how far their update moved them from their prediction, in pixels.
     pub fn shift(&mut self, targets: &[Target]) -> (f64, f64) {
-        let strong = || targets.iter().filter(|t| t.is_strong() && t.hits > 2);
+        let strong = || targets.iter().filter(|t| t.is_strong() && t.motion_is_known());
         if strong().nth(QUORUM - 1).is_none() {
             return (0.0, 0.0);
         }

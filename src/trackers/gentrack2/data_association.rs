@@ -126,6 +126,10 @@ fn motion_cost(p: &GenTrack2Parameters, particle: &State, detected: &State, scal
 
 /// `d_o,d` in mean diagonals: adapts to how well the track is predicted.
 fn distance_scale(p: &GenTrack2Parameters, target: &Target, scene: &SceneResidual) -> f64 {
+    // Without a velocity the prediction is as far off as the target is fast.
+    if !target.motion_is_known() {
+        return p.distance_scale_max;
+    }
     (p.distance_scale_gain * target.residual.value(scene)).clamp(p.distance_scale_min, p.distance_scale_max)
 }
 
@@ -252,6 +256,7 @@ mod tests {
         let p = GenTrack2Parameters::default();
         let state = State::new(0.0, 0.0, 30.0, 40.0);
         let mut target = target_at(state, &[state]);
+        target.hits = 3;
         let cost = |target: &Target, u: f64, score: f64| {
             let rect = State::new(u, 0.0, 30.0, 40.0).into();
             let mut observations = Observations::default();
@@ -266,7 +271,11 @@ mod tests {
         assert!(cost(&target, 2.0, 0.3).is_some());
         assert!(cost(&target, 12.0, 0.3).is_none());
         assert!(cost(&target, 12.0, 0.9).is_some());
+        // Before its velocity is known the scale is a whole diagonal: d/d_o = 12/50, .1371.
+        target.hits = 2;
+        assert!(cost(&target, 12.0, 0.3).is_some());
         // A doubtful track needs a score.
+        target.hits = 3;
         target.missed = 4.0;
         assert!(cost(&target, 2.0, 0.3).is_none());
         assert!(cost(&target, 2.0, 0.5).is_some());

@@ -133,9 +133,9 @@ parameters! {
         /// Share of the old template when a strong track learns its new appearance.
         template_momentum: f64 = 0.9, [0.0, 1.0], "", "";
         /// Weight of HOG dissimilarity in the association cost; 0 keeps appearance to the swarm, the paper's text.
-        hog_cost: f64 = 0.4, [0.0, 2.0], "", "";
+        hog_cost: f64 = 0.8, [0.0, 2.0], "", "";
         /// Added to `cost_gate` where HOG takes part in the cost.
-        hog_gate: f64 = 0.3, [0.0, 2.0], "", "";
+        hog_gate: f64 = 0.5, [0.0, 2.0], "", "";
         /// Weight of embedding dissimilarity, `(1 - cosine)/2`, in the association cost.
         embedding_cost: f64 = 0.5, [0.0, 2.0], "", "";
         /// Added to `cost_gate` where embeddings take part in the cost.
@@ -233,7 +233,8 @@ parameters! {
         /// History fitness from which a weak track beside a strong one recovers instead of ageing; 1 turns
         /// recovery off. Needs an image.
         recovery_threshold: f64 = 1.0, [0.0, 1.0], "", "rho_re";
-        /// Time without a match after which a track ends whatever its age. To lengthen lives raise `max_age` too.
+        /// Time without a match, at the pace of `covered_pace`, after which a track ends whatever its age. To lengthen
+        /// lives raise `max_age` too.
         max_missed: f64 = 30.0, [0.0, 1e6], "ticks", "";
         /// Pace at which time without a match passes for a weak track that is wholly behind a strong one; 1 for one
         /// in the open, in proportion in between. 1 is the paper's text.
@@ -278,23 +279,28 @@ impl GenTrack2Parameters {
     /// Names of the presets, the default first.
     pub const PRESETS: &'static [&'static str] = &["default", "paper"];
 
-    /// The values of a preset. `paper` is the literal reading of the published equations.
+    /// The values of a preset. `paper` is the literal reading of the published equations; what the paper leaves open
+    /// (a gate for the assignment, which tracks to report) is as in the defaults.
     pub fn preset(name: &str) -> Option<Self> {
         let defaults = Self::default();
         match name {
             "default" => Some(defaults),
             "paper" => Some(Self {
+                prior_spread: 1.0,
                 antithetic: false,
                 history_reference: HistoryReference::Previous,
                 hog_offset: 0.0,
                 template_momentum: 0.0,
                 hog_cost: 0.0,
                 hog_gate: 0.0,
+                embedding_cost: 0.0,
+                embedding_gate: 0.0,
                 lambda_p: 0.8,
                 lambda_foot: 0.0,
                 height_overlap: false,
                 distance_scale_max: 0.4,
                 min_iou: 0.0,
+                min_score: 0.0,
                 low_score_gate: 1.0,
                 doubt_score: 0.0,
                 birth_iou: 1.0,
@@ -308,6 +314,8 @@ impl GenTrack2Parameters {
                 sigma_g: 0.3,
                 fitness_floor: 0.0,
                 covered_pace: 1.0,
+                max_missed: 1e6,
+                end_outside: false,
                 epsilon_s: 0.05,
                 common_motion: false,
                 recovery_threshold: 0.8,

@@ -6,9 +6,6 @@ use crate::geometry::State;
 use super::parameters::{GenTrack2Parameters, StrongUpdate};
 use super::target::Target;
 
-/// Matches that take the detection whole: before that there is no velocity, so nothing to blend with.
-const UNBLENDED_HITS: u32 = 2;
-
 /// Updates state, penalty, age and counters of a matched target.
 pub fn update(p: &GenTrack2Parameters, target: &mut Target, detection: &Detection) {
     target.hits += 1;
@@ -30,7 +27,7 @@ fn updated_state(p: &GenTrack2Parameters, target: &Target, detection: &Detection
     match p.strong_update {
         StrongUpdate::Replace if target.previous.distance(&detected) >= jump => half_way(&target.previous, &detected),
         StrongUpdate::Blend if target.predicted.distance(&detected) >= jump => half_way(&target.predicted, &detected),
-        StrongUpdate::Blend if target.hits > UNBLENDED_HITS => {
+        StrongUpdate::Blend if target.motion_is_known() => {
             let (centre, size) = (p.blend_centre * detection.score, p.blend_size * detection.score);
             let (from, error) = (target.predicted, detected - target.predicted);
             State::new(

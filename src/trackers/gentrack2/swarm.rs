@@ -85,6 +85,7 @@ impl Swarm {
             }
         }
         target.global_best = target.particles[best.0].state;
+        target.looked_at = reference.template.is_some();
         target.global_fitness = if reference.template.is_some() { best.1.history } else { p.blind_fitness };
     }
 

@@ -100,6 +100,8 @@ pub struct Target {
     pub global_best: State,
     /// History fitness of the global best, `f_g,PSO^h`.
     pub global_fitness: f64,
+    /// Whether the swarm of this frame could compare looks.
+    pub looked_at: bool,
     /// HOG vector learnt from strong updates; valid if `has_template`.
     pub template: Box<Descriptor>,
     /// Whether there is a template.
@@ -137,6 +139,7 @@ impl Target {
             particles: Vec::new(),
             global_best: State::default(),
             global_fitness: 1.0,
+            looked_at: false,
             template: Box::new([0.0; _]),
             has_template: false,
             embedding: Vec::new(),
@@ -171,6 +174,7 @@ impl Target {
         self.particles.resize(particles, Hypothesis { state, velocity: State::default(), fitness: 1.0 });
         self.global_best = state;
         self.global_fitness = 1.0;
+        self.looked_at = false;
         self.has_template = false;
         self.embedding.clear();
         self.random = Random::new(seed, id);
@@ -190,6 +194,11 @@ impl Target {
         self.matched != Match::None
     }
 
+    /// Whether enough detections were taken to tell how it moves: two boxes' jitter looks like speed.
+    pub fn motion_is_known(&self) -> bool {
+        self.hits > 2
+    }
+
     /// Moves everything that is in image coordinates along with the camera.
     pub fn follow_camera(&mut self, motion: &CameraMotion) {
         self.state = motion.apply_state(&self.state);
@@ -201,5 +210,32 @@ impl Target {
             particle.state = motion.apply_state(&particle.state);
             particle.velocity = motion.apply_velocity(&particle.velocity);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn everything_in_pixels_follows_the_camera() {
+        // Twice as large, turned by 90 degrees: (x, y) goes to (-2 y + 7, 2 x + 5).
+        let motion = CameraMotion([0.0, -2.0, 7.0, 2.0, 0.0, 5.0]);
+        let mut target = Target::blank();
+        let before = State::new(10.0, 20.0, 4.0, 6.0);
+        target.begin(1, &Detection { rect: before.into(), score: 0.9, ..Default::default() }, 0, 0, 2);
+        target.velocity = State::new(1.0, 3.0, 0.5, 0.25);
+        target.particles[1].velocity = target.velocity;
+        target.history.push_back(Observation { time: 3.0, state: before });
+        target.follow_camera(&motion);
+        let centre = |s: &State| (s.u, s.v);
+        assert_eq!(centre(&target.state), (-33.0, 25.0));
+        assert_eq!(centre(&target.velocity), (-6.0, 2.0));
+        assert_eq!(centre(&target.history[0].state), (-33.0, 25.0));
+        assert_eq!(target.history[0].time, 3.0);
+        assert_eq!(centre(&target.particles[1].state), (-33.0, 25.0));
+        assert_eq!(centre(&target.particles[1].velocity), (-6.0, 2.0));
+        // Sizes grow with the columns of the map, whichever way it turns.
+        assert_eq!((target.state.w, target.state.h), (8.0, 12.0));
     }
 }
