@@ -148,7 +148,7 @@ parameters! {
         neighbour_radius_expanded: f64 = 2.0, [0.0, 40.0], "box diagonals", "epsilon_nei^exp";
 
         // Association (eq. 7-8).
-        /// Weight of the motion cost.
+        /// Weight of the motion cost. The paper's three weights sum to 1; here `cost_gate` sets their scale.
         lambda_p: f64 = 0.7, [0.0, 1.0], "", "lambda_p";
         /// Weight of the detection's lack of confidence.
         lambda_d: f64 = 0.1, [0.0, 1.0], "", "lambda_d";
