@@ -1,0 +1,38 @@
+# Installs into an empty directory and builds the smoke test from there, with CMake's package and with pkg-config.
+#   cmake -DBUILD=... -DSOURCE=... -DWORK=... -DCC=... -DPKG_CONFIG=... -P installed.cmake
+function(run)
+    execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+    if(NOT result EQUAL 0)
+        message(FATAL_ERROR "${ARGN}:\n${output}")
+    endif()
+    set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE "${WORK}")
+set(prefix "${WORK}/prefix")
+run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${prefix}")
+
+run("${CMAKE_COMMAND}" -S "${SOURCE}/consumer" -B "${WORK}/consumer" "-DCMAKE_PREFIX_PATH=${prefix}")
+run("${CMAKE_COMMAND}" --build "${WORK}/consumer")
+foreach(kind gentrack2 static)
+    run("${WORK}/consumer/smoke_${kind}")
+endforeach()
+
+file(GLOB_RECURSE pc "${prefix}/*/gentrack2.pc")
+get_filename_component(pc_directory "${pc}" DIRECTORY)
+set(ENV{PKG_CONFIG_PATH} "${pc_directory}")
+# The file names the prefix that the build was configured for.
+foreach(kind shared static)
+    set(static "")
+    if(kind STREQUAL static)
+        set(static --static)
+    endif()
+    run("${PKG_CONFIG}" --define-variable=prefix=${prefix} ${static} --cflags --libs gentrack2)
+    separate_arguments(flags UNIX_COMMAND "${output}")
+    if(kind STREQUAL static)
+        list(TRANSFORM flags REPLACE "^-lgentrack2$" "-l:libgentrack2.a")
+    endif()
+    get_filename_component(library_directory "${pc_directory}" DIRECTORY)
+    run("${CC}" "${SOURCE}/smoke.c" -o "${WORK}/smoke_${kind}" ${flags} "-Wl,-rpath,${library_directory}")
+    run("${WORK}/smoke_${kind}")
+endforeach()
