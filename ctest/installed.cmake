@@ -1,5 +1,7 @@
 # Installs into an empty directory and builds the smoke test from there, with CMake's package and with pkg-config.
 #   cmake -DBUILD=... -DSOURCE=... -DWORK=... -DCC=... -DPKG_CONFIG=... -P installed.cmake
+cmake_minimum_required(VERSION 3.25)
+
 function(run)
     execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
     if(NOT result EQUAL 0)
@@ -23,13 +25,13 @@ get_filename_component(pc_directory "${pc}" DIRECTORY)
 set(ENV{PKG_CONFIG_PATH} "${pc_directory}")
 # The file names the prefix that the build was configured for.
 foreach(kind shared static)
-    set(static "")
-    if(kind STREQUAL static)
-        set(static --static)
+    set(option "")
+    if("${kind}" STREQUAL "static")
+        set(option --static)
     endif()
-    run("${PKG_CONFIG}" --define-variable=prefix=${prefix} ${static} --cflags --libs gentrack2)
+    run("${PKG_CONFIG}" --define-variable=prefix=${prefix} ${option} --cflags --libs gentrack2)
     separate_arguments(flags UNIX_COMMAND "${output}")
-    if(kind STREQUAL static)
+    if("${kind}" STREQUAL "static")
         list(TRANSFORM flags REPLACE "^-lgentrack2$" "-l:libgentrack2.a")
     endif()
     get_filename_component(library_directory "${pc_directory}" DIRECTORY)
