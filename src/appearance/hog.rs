@@ -143,10 +143,11 @@ impl HogWorkspace {
     }
 
     /// Writes the descriptor of `candidate` (pixels) and returns true; or returns false where there is nothing to
-    /// compare: without any texture, with `out` then [`EMPTY`], or, with `out` left alone, when the candidate is smaller than [`MIN_WIDTH`] x [`MIN_HEIGHT`] or than a quarter of the reference's sides, leaves the
-    /// region, sticks out of the image by more than half a cell (1/8 of its width, 1/16 of its height), is not finite,
-    /// or when there is no region. The edges of the cells are rounded to the region's samples: 1/24 of the
-    /// reference's width, 1/48 of its height.
+    /// compare: without any texture, with `out` then [`EMPTY`]; or, with `out` left alone, when the candidate is
+    /// smaller than [`MIN_WIDTH`] x [`MIN_HEIGHT`] or than a quarter of the reference's sides, leaves the region, sticks
+    /// out of the image by more than half a cell (1/8 of its width, 1/16 of its height), is not finite, or when there
+    /// is no region. The edges of the cells are rounded to the region's samples: 1/24 of the reference's width, 1/48 of
+    /// its height.
     pub fn describe(&self, candidate: &Rect, out: &mut Descriptor) -> bool {
         let Some((columns, rows, stride)) = self.cells(candidate) else { return false };
         let mut above = self.strips(&columns, rows[0] * stride);

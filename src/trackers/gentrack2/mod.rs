@@ -222,11 +222,16 @@ impl GenTrack2 {
         let (p, work, memory) = (&self.parameters, &mut self.work, &mut self.memory);
         let room = context.max_tracks.saturating_sub(memory.targets.len());
         work.births.choose(p, &memory.targets, &work.observations, &work.association.taken, room);
+        // Those born in this frame are not asked whether they are somebody else.
+        let known = memory.targets.len();
         for nth in 0..work.births.chosen.len() {
             let index = work.births.chosen[nth];
-            let (row, detection) = (index as usize, work.observations.get(index as usize).detection);
+            let row = index as usize;
+            let detection = work.observations.get(row).detection;
             let mut sight = Sight { image: frame.image.as_ref(), hog: &mut work.swarm.hog };
-            if let Some(found) = reacquisition::find(p, &memory.targets, &mut work.observations, row, &mut sight) {
+            if let Some(found) =
+                reacquisition::find(p, &memory.targets[..known], &mut work.observations, row, &mut sight)
+            {
                 let target = &mut memory.targets[found];
                 memory.record.found(target, &detection.rect);
                 target.restart_motion(&detection, index);
