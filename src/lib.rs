@@ -19,11 +19,13 @@
 pub mod appearance;
 pub mod assignment;
 pub mod candidates;
+pub mod classes;
 pub mod config;
 pub mod error;
 pub mod frame;
 pub mod geometry;
 pub mod image;
+pub mod kalman;
 pub mod parameters;
 pub mod random;
 pub mod track;

@@ -1,6 +1,7 @@
 //! Self-describing parameters: each algorithm declares its knobs once, with the `parameters!` macro, and the typed
 //! struct, the defaults, the range checks, the introspection of the C ABI and the documentation all come from there.
 
+use crate::classes::ClassPolicy;
 use crate::error::{Error, Number};
 use crate::geometry::Rect;
 
@@ -334,6 +335,8 @@ parameters! {
         seed: i64 = 0, [0, i64::MAX], "", "";
         /// First identity given out, also after a reset.
         first_id: i64 = 1, [1, i64::MAX], "", "";
+        /// What class ids mean.
+        class_policy: ClassPolicy = ClassPolicy::Ignore, [], "", "";
         /// Most detections accepted in one frame; more is an error.
         max_detections: i64 = 32_768, [1, 1_000_000], "detections", "";
         /// Most live tracks; while there are that many, no new ones are started.

@@ -79,4 +79,17 @@ impl Output {
         self.track_of_detection.clear();
         self.track_of_detection.resize(detections, 0);
     }
+
+    /// Lists a live track where it belongs, and its identity beside its detection. A track that is not `reported` is
+    /// listed by its state.
+    pub(crate) fn list(&mut self, track: Track, reported: bool) {
+        if let Some(row) = track.detection_index {
+            self.track_of_detection[row] = track.id;
+        }
+        match track.state {
+            _ if reported => self.reported.push(track),
+            TrackState::Lost => self.lost.push(track),
+            TrackState::Tentative | TrackState::Confirmed => self.tentative.push(track),
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! The handle: one video stream tracked by one algorithm.
 
+use crate::classes::ClassRule;
 use crate::config::Config;
 use crate::error::Error;
 use crate::frame::Frame;
@@ -13,12 +14,18 @@ use crate::validation::{History, check_frame};
 pub struct StepContext<'a> {
     /// Time since the previous frame in nominal frame intervals: 1 without timestamps.
     pub elapsed: f64,
+    /// Time since the detector last ran, this frame's included, in nominal frame intervals.
+    pub since_detector: f64,
+    /// Frames on which the detector ran, this one included.
+    pub detector_frames: u64,
     /// Nominal frames per second.
     pub frame_rate: f64,
     /// Seed of the random numbers.
     pub seed: u64,
     /// Most live tracks.
     pub max_tracks: usize,
+    /// Which classes may be taken for each other.
+    pub classes: ClassRule,
     /// Where identities come from.
     pub ids: &'a mut IdSource,
 }
@@ -38,6 +45,22 @@ impl IdSource {
     }
 }
 
+/// When the detector ran.
+#[derive(Clone, Copy, Debug, Default)]
+struct DetectorClock {
+    /// Time since it last ran, in nominal frame intervals.
+    since: f64,
+    /// Frames on which it ran.
+    frames: u64,
+}
+
+impl DetectorClock {
+    fn count(&mut self, elapsed: f64, ran: bool) {
+        self.since += elapsed;
+        self.frames += u64::from(ran);
+    }
+}
+
 /// A tracker of one video stream.
 pub struct Tracker {
     algorithm: Algorithm,
@@ -45,6 +68,7 @@ pub struct Tracker {
     inner: Box<dyn TrackingAlgorithm>,
     ids: IdSource,
     history: History,
+    detector: DetectorClock,
     output: Output,
 }
 
@@ -57,6 +81,7 @@ impl Tracker {
             inner: config.parameters.build()?,
             ids: IdSource { next: config.common.first_id as u64 },
             history: History::default(),
+            detector: DetectorClock::default(),
             output: Output::default(),
         })
     }
@@ -77,15 +102,22 @@ impl Tracker {
         check_frame(frame, &self.common, &self.history)?;
         let elapsed = self.elapsed_frames(frame.timestamp_ns);
         self.remember(frame, elapsed);
+        self.detector.count(elapsed, !frame.detector_skipped);
         self.output.begin(frame.detections.len());
         let mut context = StepContext {
             elapsed,
+            since_detector: self.detector.since,
+            detector_frames: self.detector.frames,
             frame_rate: self.common.frame_rate,
             seed: self.common.seed as u64,
             max_tracks: self.common.max_tracks as usize,
+            classes: ClassRule::of(self.common.class_policy),
             ids: &mut self.ids,
         };
         self.inner.step(frame, &mut context, &mut self.output);
+        if !frame.detector_skipped {
+            self.detector.since = 0.0;
+        }
         Ok(&self.output)
     }
 
@@ -108,6 +140,7 @@ impl Tracker {
         self.inner.reset();
         self.ids = IdSource { next: self.common.first_id as u64 };
         self.history = History::default();
+        self.detector = DetectorClock::default();
         self.output.begin(0);
     }
 

@@ -1,6 +1,7 @@
 //! The algorithms, by name.
 
 pub mod gentrack2;
+mod life;
 
 use crate::error::Error;
 use crate::frame::Frame;

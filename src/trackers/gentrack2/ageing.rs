@@ -50,8 +50,7 @@ mod tests {
     use crate::geometry::Rect;
 
     fn weak(fitness: f64, blamed: f64) -> Target {
-        let mut target = Target::blank();
-        target.begin(1, &Detection::new(0.0, 0.0, 20.0, 20.0, 0.9), 0, 0, 1);
+        let mut target = Target::born(&Detection::new(0.0, 0.0, 20.0, 20.0, 0.9), 0, 1);
         target.global_fitness = fitness;
         target.blamed = blamed;
         target.looked_at = true;

@@ -50,8 +50,7 @@ mod tests {
     fn embeddings_are_averaged_and_kept_at_length_one() {
         let p = GenTrack2Parameters { template_momentum: 0.5, ..Default::default() };
         let detection = Detection::new(0.0, 0.0, 10.0, 10.0, 0.9);
-        let mut target = Target::blank();
-        target.begin(1, &detection, 0, 0, 1);
+        let mut target = Target::born(&detection, 0, 1);
         let mut hog = HogWorkspace::default();
         for data in [[2.0, 0.0], [0.0, 3.0]] {
             let detections = [detection];

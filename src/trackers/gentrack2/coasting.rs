@@ -44,7 +44,7 @@ impl CoastRecord {
 
     /// Learns from a track that was never found again.
     pub fn gone(&mut self, p: &GenTrack2Parameters, target: &Target) {
-        if target.hits as i64 >= p.coast_hits {
+        if target.life.hits as i64 >= p.coast_hits {
             self.total += target.missed.min(LONGEST);
         }
     }
@@ -60,7 +60,7 @@ pub fn is_reported(p: &GenTrack2Parameters, target: &Target, scene: &SceneResidu
         return true;
     }
     target.missed <= p.coast
-        && i64::from(target.hits) >= p.coast_hits
+        && i64::from(target.life.hits) >= p.coast_hits
         && target.residual.value(scene) * (1.0 + GROWTH * target.missed) <= p.coast_residual
         && record.success() >= p.coast_success
 }
@@ -72,10 +72,9 @@ mod tests {
     use crate::geometry::Rect;
 
     fn lost(missed: u32, hits: u32) -> Target {
-        let mut target = Target::blank();
-        target.begin(1, &Detection::new(0.0, 0.0, 20.0, 20.0, 0.9), 0, 0, 1);
+        let mut target = Target::born(&Detection::new(0.0, 0.0, 20.0, 20.0, 0.9), 0, 1);
         target.confirmed = true;
-        (target.missed, target.missed_frames, target.hits) = (missed as f64, missed, hits);
+        (target.missed, target.missed_frames, target.life.hits) = (missed as f64, missed, hits);
         target
     }
 

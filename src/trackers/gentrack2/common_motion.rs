@@ -47,9 +47,8 @@ mod tests {
 
     /// A strong track with a velocity that its update moved by `(u, v)` from its prediction.
     fn moved(u: f64, v: f64) -> Target {
-        let mut target = Target::blank();
-        target.begin(1, &Detection::new(10.0, 20.0, 30.0, 40.0, 0.9), 0, 0, 1);
-        target.hits = 3;
+        let mut target = Target::born(&Detection::new(10.0, 20.0, 30.0, 40.0, 0.9), 0, 1);
+        target.life.hits = 3;
         target.predicted.u = target.state.u - u;
         target.predicted.v = target.state.v - v;
         target
@@ -60,7 +59,7 @@ mod tests {
         let mut unseen = moved(100.0, 100.0);
         unseen.matched = Match::None;
         let mut new = moved(100.0, 100.0);
-        new.hits = 2;
+        new.life.hits = 2;
         // Of four, sorted, the second and third: 4 and 5 to the right, 2 and 1 up.
         let targets = [moved(4.0, -1.0), unseen, moved(5.0, 0.0), new, moved(-20.0, -3.0), moved(6.0, -2.0)];
         assert_eq!(CommonMotion::default().shift(&targets), (4.0, -1.0));

@@ -46,8 +46,7 @@ mod tests {
     #[test]
     fn the_share_is_of_the_weak_tracks_own_box_behind_the_best_strong_one() {
         let target = |left: f64, width: f64, strong: bool| {
-            let mut target = Target::blank();
-            target.begin(1, &Detection::new(left, 0.0, width, 20.0, 0.9), 0, 0, 1);
+            let mut target = Target::born(&Detection::new(left, 0.0, width, 20.0, 0.9), 0, 1);
             if !strong {
                 target.matched = Match::None;
             }

@@ -3,6 +3,7 @@
 use crate::appearance::{HogWorkspace, cosine};
 use crate::assignment::{Assignment, Edge, UNMATCHED};
 use crate::candidates::OverlapSweep;
+use crate::classes::ClassRule;
 use crate::geometry::{Rect, State};
 use crate::image::ImageView;
 
@@ -39,9 +40,10 @@ impl DataAssociation {
         targets: &mut [Target],
         observations: &mut Observations,
         scene: &SceneResidual,
+        rule: ClassRule,
         sight: &mut Sight<'_, '_>,
     ) {
-        self.collect_edges(p, targets, observations, scene, sight);
+        self.collect_edges(p, targets, observations, scene, rule, sight);
         let columns = self.solver.solve(targets.len(), observations.len(), &self.edges, p.cost_gate);
         self.taken.clear();
         self.taken.resize(observations.len(), false);
@@ -62,6 +64,7 @@ impl DataAssociation {
         targets: &[Target],
         observations: &mut Observations,
         scene: &SceneResidual,
+        rule: ClassRule,
         sight: &mut Sight<'_, '_>,
     ) {
         self.edges.clear();
@@ -73,8 +76,11 @@ impl DataAssociation {
         columns.clear();
         columns.extend((0..observations.len()).map(|j| widened(&observations.get(j).state, reach)));
         for &(row, column) in self.sweep.pairs(rows, columns) {
-            let target = &targets[row as usize];
-            let Some(mut cost) = motion_part(p, target, observations.get(column as usize), scene) else { continue };
+            let (target, observed) = (&targets[row as usize], observations.get(column as usize));
+            if !rule.allows(target.life.last.class_id, observed.detection.class_id) {
+                continue;
+            }
+            let Some(mut cost) = motion_part(p, target, observed, scene) else { continue };
             cost += embedding_part(p, target, observations, column as usize);
             // Looking is dear: not where the pair is out already.
             if cost <= p.cost_gate + p.hog_gate {
@@ -194,8 +200,8 @@ mod tests {
     }
 
     fn target_at(state: State, particles: &[State]) -> Target {
-        let mut target = Target::blank();
-        target.begin(1, &Detection { rect: state.into(), score: 0.9, ..Default::default() }, 0, 0, particles.len());
+        let mut target =
+            Target::born(&Detection { rect: state.into(), score: 0.9, ..Default::default() }, 0, particles.len());
         target.confirmed = true;
         for (particle, state) in target.particles.iter_mut().zip(particles) {
             particle.state = *state;
@@ -256,7 +262,7 @@ mod tests {
         let p = GenTrack2Parameters::default();
         let state = State::new(0.0, 0.0, 30.0, 40.0);
         let mut target = target_at(state, &[state]);
-        target.hits = 3;
+        target.life.hits = 3;
         let cost = |target: &Target, u: f64, score: f64| {
             let rect = State::new(u, 0.0, 30.0, 40.0).into();
             let mut observations = Observations::default();
@@ -272,10 +278,10 @@ mod tests {
         assert!(cost(&target, 12.0, 0.3).is_none());
         assert!(cost(&target, 12.0, 0.9).is_some());
         // Before its velocity is known the scale is a whole diagonal: d/d_o = 12/50, .1371.
-        target.hits = 2;
+        target.life.hits = 2;
         assert!(cost(&target, 12.0, 0.3).is_some());
         // A doubtful track needs a score.
-        target.hits = 3;
+        target.life.hits = 3;
         target.missed = 4.0;
         assert!(cost(&target, 2.0, 0.3).is_none());
         assert!(cost(&target, 2.0, 0.5).is_some());
@@ -295,7 +301,14 @@ mod tests {
         observations.prepare(&Frame::new(&[at(3.0, 0.7), at(-3.0, 0.9)]), 0.0);
         let mut association = DataAssociation::default();
         let mut sight = Sight { image: None, hog: &mut HogWorkspace::default() };
-        association.associate(&p, &mut targets, &mut observations, &SceneResidual::default(), &mut sight);
+        association.associate(
+            &p,
+            &mut targets,
+            &mut observations,
+            &SceneResidual::default(),
+            ClassRule::default(),
+            &mut sight,
+        );
         let row = targets[0].matched.index().map(|i| observations.get(i).row);
         assert_eq!(row, Some(1));
         assert_eq!(association.taken, [true, false]);
@@ -312,7 +325,14 @@ mod tests {
             let rect = State::new(u, 0.0, 30.0, 40.0).into();
             observations.prepare(&Frame::new(&[Detection { rect, score: 0.9, ..Default::default() }]), 0.0);
             let mut sight = Sight { image: None, hog: &mut HogWorkspace::default() };
-            association.associate(&p, &mut targets, &mut observations, &SceneResidual::default(), &mut sight);
+            association.associate(
+                &p,
+                &mut targets,
+                &mut observations,
+                &SceneResidual::default(),
+                ClassRule::default(),
+                &mut sight,
+            );
             targets[0].is_strong()
         };
         assert!(matched(45.0));

@@ -39,11 +39,13 @@ mod weak_motion;
 
 pub use parameters::*;
 
+use crate::classes::ClassRule;
 use crate::frame::Frame;
 use crate::geometry::{Rect, State};
 use crate::track::{Output, Particle};
 use crate::tracker::StepContext;
 use crate::trackers::TrackingAlgorithm;
+use crate::trackers::life::Life;
 
 use coasting::CoastRecord;
 use common_motion::CommonMotion;
@@ -75,10 +77,6 @@ struct Memory {
     targets: Vec<Target>,
     /// Now, in ticks since the first frame.
     time: f64,
-    /// Ticks since the detector last ran.
-    since_detector: f64,
-    /// Whether a frame with the detector has been seen.
-    started: bool,
     scene: SceneResidual,
     record: CoastRecord,
 }
@@ -129,7 +127,6 @@ impl GenTrack2 {
     /// Starts the frame: moves everything with the camera and predicts.
     fn begin_frame(&mut self, frame: &Frame<'_>, ticks: f64) {
         self.memory.time += ticks;
-        self.memory.since_detector += ticks;
         self.memory.record.decay(ticks);
         for target in &mut self.memory.targets {
             if let Some(motion) = &frame.camera_motion {
@@ -138,8 +135,7 @@ impl GenTrack2 {
             target.previous = target.state;
             target.predicted = particle_sampling::predict(&self.parameters, &target.state, &target.velocity, ticks);
             target.matched = Match::None;
-            target.frames = target.frames.saturating_add(1);
-            target.frames_since_match = target.frames_since_match.saturating_add(1);
+            target.life.next_frame();
         }
     }
 
@@ -164,11 +160,11 @@ impl GenTrack2 {
         }
     }
 
-    fn associate(&mut self, frame: &Frame<'_>) {
+    fn associate(&mut self, frame: &Frame<'_>, rule: ClassRule) {
         let work = &mut self.work;
         let mut sight = Sight { image: frame.image.as_ref(), hog: &mut work.swarm.hog };
         let (targets, scene) = (&mut self.memory.targets, &self.memory.scene);
-        work.association.associate(&self.parameters, targets, &mut work.observations, scene, &mut sight);
+        work.association.associate(&self.parameters, targets, &mut work.observations, scene, rule, &mut sight);
     }
 
     fn update_strong(&mut self, frame: &Frame<'_>, ticks: f64) {
@@ -176,18 +172,19 @@ impl GenTrack2 {
         for target in &mut memory.targets {
             let Some(index) = target.matched.index() else { continue };
             let observed = work.observations.get(index);
-            let (detection, detected) = (observed.detection, observed.state);
+            let (row, detection, detected) = (observed.row, observed.detection, observed.state);
             if target.missed > 0.0 {
                 memory.record.found(target, &detection.rect);
             } else if residual::is_telling(target, &detection) {
                 target.residual.learn(&mut memory.scene, &target.predicted, &detected);
             }
-            strong_update::update(p, target, &detection);
+            strong_update::update(p, target, row, &detection);
             work.learn(p, target, index, frame, memory.time, ticks);
         }
     }
 
-    fn update_weak(&mut self, ticks: f64, detector_ran: bool, camera_known: bool) {
+    /// `since_detector` is 0 if the detector did not run.
+    fn update_weak(&mut self, ticks: f64, since_detector: f64, camera_known: bool) {
         let (p, work, targets) = (&self.parameters, &mut self.work, &mut self.memory.targets);
         let (neighbours, states) = (&work.neighbours, &work.states);
         let lonely = |i: usize| !targets[i].is_strong() && neighbours.of(i).is_empty();
@@ -208,9 +205,9 @@ impl GenTrack2 {
             target.state.u += shift.0;
             target.state.v += shift.1;
             target.covered = target.covered.max(covered[index]);
-            if detector_ran {
-                let blamed = self.memory.since_detector * ageing::pace(p, covered[index]);
-                target.missed += self.memory.since_detector;
+            if since_detector > 0.0 {
+                let blamed = since_detector * ageing::pace(p, covered[index]);
+                target.missed += since_detector;
                 target.blamed += blamed;
                 target.missed_frames = target.missed_frames.saturating_add(1);
                 ageing::age(p, target, trusted.is_some(), blamed);
@@ -220,29 +217,36 @@ impl GenTrack2 {
 
     fn start_tracks(&mut self, frame: &Frame<'_>, context: &mut StepContext<'_>, ticks: f64) {
         let (p, work, memory) = (&self.parameters, &mut self.work, &mut self.memory);
+        let rule = context.classes;
         let room = context.max_tracks.saturating_sub(memory.targets.len());
-        work.births.choose(p, &memory.targets, &work.observations, &work.association.taken, room);
+        work.births.choose(p, &memory.targets, &work.observations, &work.association.taken, rule, room);
         // Those born in this frame are not asked whether they are somebody else.
         let known = memory.targets.len();
         for nth in 0..work.births.chosen.len() {
             let index = work.births.chosen[nth];
-            let row = index as usize;
-            let detection = work.observations.get(row).detection;
+            let observed = work.observations.get(index as usize);
+            let (row, detection) = (observed.row, observed.detection);
             let mut sight = Sight { image: frame.image.as_ref(), hog: &mut work.swarm.hog };
-            if let Some(found) =
-                reacquisition::find(p, &memory.targets[..known], &mut work.observations, row, &mut sight)
-            {
+            if let Some(found) = reacquisition::find(
+                p,
+                &memory.targets[..known],
+                &mut work.observations,
+                index as usize,
+                rule,
+                &mut sight,
+            ) {
                 let target = &mut memory.targets[found];
                 memory.record.found(target, &detection.rect);
                 target.restart_motion(&detection, index);
-                strong_update::update(p, target, &detection);
-                work.learn(p, target, row, frame, memory.time, ticks);
+                strong_update::update(p, target, row, &detection);
+                work.learn(p, target, index as usize, frame, memory.time, ticks);
                 continue;
             }
             let mut target = work.spare.pop().unwrap_or_else(Target::blank);
-            target.begin(context.ids.take(), &detection, index, context.seed, p.particles as usize);
-            target.confirmed = !memory.started || p.confirm_hits <= 1;
-            work.learn(p, &mut target, row, frame, memory.time, ticks);
+            let life = Life::begin(context.ids.take(), row, &detection);
+            target.begin(life, index, context.seed, p.particles as usize);
+            target.confirmed = context.detector_frames == 1 || p.confirm_hits <= 1;
+            work.learn(p, &mut target, index as usize, frame, memory.time, ticks);
             memory.targets.push(target);
         }
     }
@@ -253,7 +257,7 @@ impl GenTrack2 {
         let ended = memory.targets.extract_if(.., |t| removal::is_expired(p, t, frame_size));
         work.spare.extend(ended.inspect(|target| {
             record.gone(p, target);
-            output.ended.push(target.id);
+            output.ended.push(target.life.id);
         }));
     }
 
@@ -265,7 +269,7 @@ impl GenTrack2 {
                     && coasting::is_reported(p, target, &memory.scene, &memory.record);
                 target.reported = target.confirmed && (target.is_strong() || predicted);
             }
-            reporting::report(target, &self.work.observations, output);
+            reporting::report(target, output);
         }
         self.work.particles.fill(&memory.targets);
     }
@@ -273,20 +277,20 @@ impl GenTrack2 {
 
 impl TrackingAlgorithm for GenTrack2 {
     fn step(&mut self, frame: &Frame<'_>, context: &mut StepContext<'_>, output: &mut Output) {
-        let ticks = context.elapsed * TICKS_PER_SECOND / context.frame_rate;
+        let ticks_per_frame = TICKS_PER_SECOND / context.frame_rate;
+        let ticks = context.elapsed * ticks_per_frame;
         let detector_ran = !frame.detector_skipped;
         self.begin_frame(frame, ticks);
         self.work.observations.prepare(frame, self.parameters.min_score);
         self.sample_particles(frame, ticks);
         if detector_ran {
-            self.associate(frame);
+            self.associate(frame, context.classes);
             self.update_strong(frame, ticks);
         }
-        self.update_weak(ticks, detector_ran, frame.camera_motion.is_some());
+        let since_detector = if detector_ran { context.since_detector * ticks_per_frame } else { 0.0 };
+        self.update_weak(ticks, since_detector, frame.camera_motion.is_some());
         if detector_ran {
             self.start_tracks(frame, context, ticks);
-            self.memory.started = true;
-            self.memory.since_detector = 0.0;
         }
         self.remove_expired(frame.size(), output);
         self.report(frame.size(), detector_ran, output);
@@ -325,7 +329,7 @@ impl ParticleList {
                 velocity: s.velocity * TICKS_PER_SECOND,
                 fitness: s.fitness,
             }));
-            self.owners.push((target.id, start..self.list.len()));
+            self.owners.push((target.life.id, start..self.list.len()));
         }
     }
 

@@ -1,16 +1,25 @@
 //! New tracks: unmatched detections of enough confidence start a target (eq. 10).
 
+use crate::classes::ClassRule;
+use crate::frame::Detection;
 use crate::geometry::Rect;
 
 use super::observations::Observations;
 use super::parameters::GenTrack2Parameters;
 use super::target::Target;
 
+/// A place that a track with a detection holds.
+#[derive(Clone, Copy, Debug)]
+struct Claim {
+    rect: Rect,
+    class: i32,
+}
+
 /// Decides which detections start a track.
 #[derive(Clone, Debug, Default)]
 pub struct Births {
     // Boxes of tracks that have a detection in this frame, by their left edge.
-    claimed: Vec<Rect>,
+    claimed: Vec<Claim>,
     widest: f64,
     /// The observations that start a track, best score first.
     pub chosen: Vec<u32>,
@@ -25,40 +34,42 @@ impl Births {
         targets: &[Target],
         observations: &Observations,
         taken: &[bool],
+        rule: ClassRule,
         room: usize,
     ) {
         self.chosen.clear();
         self.claimed.clear();
         let strong = targets.iter().filter(|t| t.is_strong());
-        self.claimed.extend(strong.map(|t| Rect::from(t.state)));
-        self.claimed.sort_unstable_by(|a, b| a.left.total_cmp(&b.left));
-        self.widest = self.claimed.iter().map(|r| r.width).fold(0.0, f64::max);
+        self.claimed.extend(strong.map(|t| Claim { rect: t.state.into(), class: t.life.last.class_id }));
+        self.claimed.sort_unstable_by(|a, b| a.rect.left.total_cmp(&b.rect.left));
+        self.widest = self.claimed.iter().map(|c| c.rect.width).fold(0.0, f64::max);
         let check = p.birth_iou < 1.0;
         for index in (0..observations.len()).filter(|i| !taken[*i]) {
             let detection = &observations.get(index).detection;
             if detection.score < p.birth_score || self.chosen.len() >= room {
                 break;
             }
-            if check && self.overlaps(&detection.rect, p.birth_iou) {
+            if check && self.overlaps(detection, p.birth_iou, rule) {
                 continue;
             }
             self.chosen.push(index as u32);
             if check {
-                self.claim(detection.rect);
+                self.claim(Claim { rect: detection.rect, class: detection.class_id });
             }
         }
     }
 
-    fn overlaps(&self, rect: &Rect, limit: f64) -> bool {
-        let from = self.claimed.partition_point(|c| c.left < rect.left - self.widest);
-        let near = self.claimed[from..].iter().take_while(|c| c.left < rect.right());
-        near.into_iter().any(|c| c.iou(rect) > limit)
+    fn overlaps(&self, detection: &Detection, limit: f64, rule: ClassRule) -> bool {
+        let rect = &detection.rect;
+        let from = self.claimed.partition_point(|c| c.rect.left < rect.left - self.widest);
+        let near = self.claimed[from..].iter().take_while(|c| c.rect.left < rect.right());
+        near.into_iter().any(|c| rule.allows(c.class, detection.class_id) && c.rect.iou(rect) > limit)
     }
 
-    fn claim(&mut self, rect: Rect) {
-        let at = self.claimed.partition_point(|c| c.left < rect.left);
-        self.claimed.insert(at, rect);
-        self.widest = self.widest.max(rect.width);
+    fn claim(&mut self, claim: Claim) {
+        let at = self.claimed.partition_point(|c| c.rect.left < claim.rect.left);
+        self.claimed.insert(at, claim);
+        self.widest = self.widest.max(claim.rect.width);
     }
 }
 
@@ -71,7 +82,7 @@ mod tests {
         let mut observations = Observations::default();
         observations.prepare(&Frame::new(detections), 0.0);
         let mut births = Births::default();
-        births.choose(p, targets, &observations, &vec![false; detections.len()], room);
+        births.choose(p, targets, &observations, &vec![false; detections.len()], ClassRule::default(), room);
         births.chosen.iter().map(|i| observations.get(*i as usize).row).collect()
     }
 
@@ -89,8 +100,7 @@ mod tests {
 
     #[test]
     fn nothing_is_born_on_top_of_a_strong_or_new_track() {
-        let mut strong = Target::blank();
-        strong.begin(1, &Detection::new(100.0, 0.0, 10.0, 10.0, 0.9), 0, 0, 1);
+        let strong = Target::born(&Detection::new(100.0, 0.0, 10.0, 10.0, 0.9), 0, 1);
         let detections = [
             // IoU with the strong track 90/110 = .82.
             Detection::new(101.0, 0.0, 10.0, 10.0, 0.9),

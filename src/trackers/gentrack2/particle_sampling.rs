@@ -125,9 +125,8 @@ mod tests {
     use crate::frame::Detection;
 
     fn target(velocity: State, particles: usize) -> Target {
-        let mut target = Target::blank();
         // Centre (120, 240), 40 x 80.
-        target.begin(1, &Detection::new(100.0, 200.0, 40.0, 80.0, 0.9), 0, 5, particles);
+        let mut target = Target::born(&Detection::new(100.0, 200.0, 40.0, 80.0, 0.9), 5, particles);
         target.velocity = velocity;
         target
     }

@@ -4,10 +4,11 @@
 //! Hidden targets turn and stop where nobody sees it, so their predictions can be far off; what bounds where they can
 //! be is their speed and the time they were gone.
 
+use crate::classes::ClassRule;
 use crate::geometry::State;
 
 use super::data_association::{Sight, looks_alike};
-use super::observations::Observations;
+use super::observations::{Observations, Observed};
 use super::parameters::GenTrack2Parameters;
 use super::target::Target;
 
@@ -26,14 +27,18 @@ pub fn find(
     targets: &[Target],
     observations: &mut Observations,
     index: usize,
+    rule: ClassRule,
     sight: &mut Sight<'_, '_>,
 ) -> Option<usize> {
     if p.reacquire_reach == 0.0 {
         return None;
     }
-    let detected = observations.get(index).state;
+    let Observed { state: detected, detection, .. } = *observations.get(index);
     let mut best = None;
     for (slot, target) in targets.iter().enumerate() {
+        if !rule.allows(target.life.last.class_id, detection.class_id) {
+            continue;
+        }
         let Some(detour) = detour(p, target, &detected) else { continue };
         let nearer = best.is_none_or(|(_, least)| detour < least);
         if nearer && looks_alike(p, target, observations, index, sight) {
@@ -46,7 +51,7 @@ pub fn find(
 /// How far the hidden target would have had to go to be at `detected`, relative to how far it can have got; `None` if
 /// that is too far or it is not one to be looked for.
 fn detour(p: &GenTrack2Parameters, target: &Target, detected: &State) -> Option<f64> {
-    let sought = target.confirmed && !target.is_strong() && target.covered >= HIDDEN && target.hits >= KNOWN_HITS;
+    let sought = target.confirmed && !target.is_strong() && target.covered >= HIDDEN && target.life.hits >= KNOWN_HITS;
     let last = &target.history.back().filter(|_| sought)?.state;
     let growth = detected.h / last.h;
     if !(1.0 / LARGEST_GROWTH..=LARGEST_GROWTH).contains(&growth) {
@@ -66,13 +71,13 @@ mod tests {
 
     /// Last seen at (100, 100), 30 x 40 (diagonal 50), walking at 5 px/tick, gone for 10 ticks behind another.
     fn hidden() -> Target {
-        let mut target = Target::blank();
-        target.begin(1, &Detection { rect: seen(100.0, 100.0).into(), score: 0.9, ..Default::default() }, 0, 0, 1);
+        let mut target =
+            Target::born(&Detection { rect: seen(100.0, 100.0).into(), score: 0.9, ..Default::default() }, 0, 1);
         target.history.push_back(Observation { time: 0.0, state: target.state });
         target.velocity = State::new(3.0, 4.0, 0.0, 0.0);
         target.matched = Match::None;
         target.confirmed = true;
-        target.hits = 10;
+        target.life.hits = 10;
         target.missed = 10.0;
         target.covered = 0.5;
         target.state.u = 500.0;
@@ -107,7 +112,7 @@ mod tests {
         assert!(!refused(|_| ()));
         assert!(refused(|t| t.covered = 0.4));
         assert!(refused(|t| t.confirmed = false));
-        assert!(refused(|t| t.hits = 9));
+        assert!(refused(|t| t.life.hits = 9));
         assert!(refused(|t| t.matched = Match::Detection(0)));
         // Heights of 40 and 51: more than a quarter.
         let taller = State { h: 51.0, ..seen(100.0, 100.0) };
@@ -127,7 +132,7 @@ mod tests {
         observations.prepare(&frame, 0.0);
         let mut found = |targets: &[Target], p: &GenTrack2Parameters| {
             let mut sight = Sight { image: None, hog: &mut HogWorkspace::default() };
-            find(p, targets, &mut observations, 0, &mut sight)
+            find(p, targets, &mut observations, 0, ClassRule::default(), &mut sight)
         };
         assert_eq!(found(&targets, &parameters()), Some(1));
         assert_eq!(found(&targets, &GenTrack2Parameters { reacquire_reach: 0.0, ..parameters() }), None);

@@ -37,8 +37,7 @@ mod tests {
     use crate::trackers::gentrack2::target::Match;
 
     fn weak(missed: f64) -> Target {
-        let mut target = Target::blank();
-        target.begin(1, &Detection::new(0.0, 0.0, 20.0, 20.0, 0.9), 0, 0, 1);
+        let mut target = Target::born(&Detection::new(0.0, 0.0, 20.0, 20.0, 0.9), 0, 1);
         target.matched = Match::None;
         target.confirmed = true;
         (target.missed, target.blamed) = (missed, missed);

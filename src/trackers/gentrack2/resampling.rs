@@ -38,8 +38,7 @@ mod tests {
     use crate::frame::Detection;
 
     fn target() -> Target {
-        let mut target = Target::blank();
-        target.begin(1, &Detection::new(0.0, 0.0, 10.0, 10.0, 0.9), 0, 0, 4);
+        let mut target = Target::born(&Detection::new(0.0, 0.0, 10.0, 10.0, 0.9), 0, 4);
         for (particle, fitness) in target.particles.iter_mut().zip([0.2, 0.9, 0.1, 0.5]) {
             particle.fitness = fitness;
             particle.state.u = fitness;

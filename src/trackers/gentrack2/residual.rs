@@ -58,7 +58,7 @@ impl Residual {
 /// Whether a match, before its update, says something about predictability: the track has a velocity, was not lost,
 /// and the detector is sure of the box.
 pub fn is_telling(target: &Target, detection: &Detection) -> bool {
-    target.hits >= 2 && target.missed == 0.0 && detection.score >= SURE
+    target.life.hits >= 2 && target.missed == 0.0 && detection.score >= SURE
 }
 
 #[cfg(test)]

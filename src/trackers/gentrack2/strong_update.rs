@@ -7,8 +7,8 @@ use super::parameters::{GenTrack2Parameters, StrongUpdate};
 use super::target::Target;
 
 /// Updates state, penalty, age and counters of a matched target.
-pub fn update(p: &GenTrack2Parameters, target: &mut Target, detection: &Detection) {
-    target.hits += 1;
+pub fn update(p: &GenTrack2Parameters, target: &mut Target, row: u32, detection: &Detection) {
+    target.life.take(row, detection);
     target.state = updated_state(p, target, detection);
     target.penalty = p.strong_penalty * (1.0 - detection.score);
     target.age = 0.0;
@@ -16,9 +16,7 @@ pub fn update(p: &GenTrack2Parameters, target: &mut Target, detection: &Detectio
     target.blamed = 0.0;
     target.covered = 0.0;
     target.missed_frames = 0;
-    target.frames_since_match = 0;
-    target.last = *detection;
-    target.confirmed |= target.hits >= p.confirm_hits as u32;
+    target.confirmed |= target.life.hits >= p.confirm_hits as u32;
 }
 
 fn updated_state(p: &GenTrack2Parameters, target: &Target, detection: &Detection) -> State {
@@ -52,10 +50,9 @@ mod tests {
 
     /// 40 x 80 at (100, 100), predicted 10 px to the right, seen `hits` times.
     fn target(hits: u32) -> Target {
-        let mut target = Target::blank();
-        target.begin(1, &Detection::new(80.0, 60.0, 40.0, 80.0, 0.9), 0, 0, 1);
+        let mut target = Target::born(&Detection::new(80.0, 60.0, 40.0, 80.0, 0.9), 0, 1);
         target.predicted.u = 110.0;
-        target.hits = hits;
+        target.life.hits = hits;
         target.penalty = 0.7;
         target.age = 12.0;
         target.missed = 3.0;
@@ -76,12 +73,12 @@ mod tests {
         };
         // Near (20 px, the limit is .5 * 89.4): the detection itself.
         let mut near = target(9);
-        update(&p, &mut near, &detection(120.0, 44.0, 0.6));
+        update(&p, &mut near, 0, &detection(120.0, 44.0, 0.6));
         assert_eq!(near.state, State::new(120.0, 100.0, 44.0, 80.0));
-        assert_eq!((near.penalty, near.age, near.missed, near.hits), (0.0, 0.0, 0.0, 10));
+        assert_eq!((near.penalty, near.age, near.missed, near.life.hits), (0.0, 0.0, 0.0, 10));
         // Far (60 px from X_{t-1}): the mean of (100, ...) and (160, ...).
         let mut far = target(9);
-        update(&p, &mut far, &detection(160.0, 40.0, 0.6));
+        update(&p, &mut far, 0, &detection(160.0, 40.0, 0.6));
         assert_eq!(far.state, State::new(130.0, 100.0, 40.0, 80.0));
     }
 
@@ -89,7 +86,7 @@ mod tests {
     fn the_blend_weighs_by_confidence() {
         let p = GenTrack2Parameters { blend_centre: 0.7, blend_size: 0.6, strong_penalty: 0.3, ..Default::default() };
         let mut target = target(9);
-        update(&p, &mut target, &detection(120.0, 50.0, 0.5));
+        update(&p, &mut target, 0, &detection(120.0, 50.0, 0.5));
         // Centre: 110 + .35 * 10 = 113.5; width: 40 + .3 * 10 = 43; penalty: .3 * .5.
         assert_eq!(target.state, State::new(113.5, 100.0, 43.0, 80.0));
         assert_eq!(target.penalty, 0.15);
@@ -99,10 +96,10 @@ mod tests {
     fn young_tracks_take_the_detection_and_are_confirmed_by_hits() {
         let p = GenTrack2Parameters { confirm_hits: 3, ..Default::default() };
         let mut target = target(1);
-        update(&p, &mut target, &detection(120.0, 50.0, 0.5));
+        update(&p, &mut target, 0, &detection(120.0, 50.0, 0.5));
         assert_eq!(target.state, State::new(120.0, 100.0, 50.0, 80.0));
         assert!(!target.confirmed);
-        update(&p, &mut target, &detection(120.0, 50.0, 0.5));
+        update(&p, &mut target, 0, &detection(120.0, 50.0, 0.5));
         assert!(target.confirmed);
     }
 }

@@ -174,8 +174,7 @@ mod tests {
     use crate::frame::Detection;
 
     fn target_with(particles: &[State]) -> Target {
-        let mut target = Target::blank();
-        target.begin(1, &Detection::new(80.0, 60.0, 40.0, 80.0, 0.9), 0, 3, particles.len());
+        let mut target = Target::born(&Detection::new(80.0, 60.0, 40.0, 80.0, 0.9), 3, particles.len());
         for (particle, state) in target.particles.iter_mut().zip(particles) {
             particle.state = *state;
         }

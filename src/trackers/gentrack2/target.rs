@@ -7,6 +7,8 @@ use crate::frame::{CameraMotion, Detection};
 use crate::geometry::State;
 use crate::random::Random;
 
+use crate::trackers::life::Life;
+
 use super::residual::Residual;
 
 /// A particle: a hypothesis of the target's state, `{X^s, V^s}`.
@@ -54,8 +56,8 @@ impl Match {
 /// A target.
 #[derive(Clone, Debug)]
 pub struct Target {
-    /// Identity `K`.
-    pub id: u64,
+    /// Identity `K`, ages, and the detection last taken.
+    pub life: Life,
     /// State `X_t`; during a step, until its update, `X_{t-1}` in this frame's coordinates.
     pub state: State,
     /// `X_{t-1}` in this frame's coordinates.
@@ -76,20 +78,12 @@ pub struct Target {
     pub covered: f64,
     /// Frames without a match on which the detector ran.
     pub missed_frames: u32,
-    /// Frames without a match.
-    pub frames_since_match: u32,
-    /// Detections taken.
-    pub hits: u32,
-    /// Frames since birth, the birth counted.
-    pub frames: u32,
     /// Whether the track is trusted.
     pub confirmed: bool,
     /// Whether the track was reported in the last step.
     pub reported: bool,
     /// The detection of this frame.
     pub matched: Match,
-    /// Score, class and tag of the detection last taken.
-    pub last: Detection,
     /// Observed states, oldest first.
     pub history: VecDeque<Observation>,
     /// How well its motion is predicted.
@@ -116,7 +110,7 @@ impl Target {
     /// An empty shell, to be filled by [`Target::begin`].
     pub fn blank() -> Self {
         Self {
-            id: 0,
+            life: Life::default(),
             state: State::default(),
             previous: State::default(),
             predicted: State::default(),
@@ -127,13 +121,9 @@ impl Target {
             blamed: 0.0,
             covered: 0.0,
             missed_frames: 0,
-            frames_since_match: 0,
-            hits: 0,
-            frames: 0,
             confirmed: false,
             reported: false,
             matched: Match::None,
-            last: Detection::default(),
             history: VecDeque::new(),
             residual: Residual::default(),
             particles: Vec::new(),
@@ -147,10 +137,19 @@ impl Target {
         }
     }
 
-    /// Starts a life at a detection, keeping the buffers of an earlier one.
-    pub fn begin(&mut self, id: u64, detection: &Detection, index: u32, seed: u64, particles: usize) {
-        let state = State::from(detection.rect);
-        self.id = id;
+    /// A target that was just born, for tests.
+    #[cfg(test)]
+    pub fn born(detection: &Detection, seed: u64, particles: usize) -> Self {
+        let mut target = Self::blank();
+        target.begin(Life::begin(1, 0, detection), 0, seed, particles);
+        target
+    }
+
+    /// Starts a life at the observation `index`, keeping the buffers of an earlier one.
+    pub fn begin(&mut self, life: Life, index: u32, seed: u64, particles: usize) {
+        let state = State::from(life.last.rect);
+        self.random = Random::new(seed, life.id);
+        self.life = life;
         self.state = state;
         self.previous = state;
         self.predicted = state;
@@ -161,13 +160,9 @@ impl Target {
         self.blamed = 0.0;
         self.covered = 0.0;
         self.missed_frames = 0;
-        self.frames_since_match = 0;
-        self.hits = 1;
-        self.frames = 1;
         self.confirmed = false;
         self.reported = false;
         self.matched = Match::Birth(index);
-        self.last = *detection;
         self.history.clear();
         self.residual = Residual::default();
         self.particles.clear();
@@ -177,7 +172,6 @@ impl Target {
         self.looked_at = false;
         self.has_template = false;
         self.embedding.clear();
-        self.random = Random::new(seed, id);
     }
 
     /// Puts a target at a detection where its motion did not lead: what was known of it is forgotten.
@@ -196,7 +190,7 @@ impl Target {
 
     /// Whether enough detections were taken to tell how it moves: two boxes' jitter looks like speed.
     pub fn motion_is_known(&self) -> bool {
-        self.hits > 2
+        self.life.hits > 2
     }
 
     /// Moves everything that is in image coordinates along with the camera.
@@ -221,9 +215,8 @@ mod tests {
     fn everything_in_pixels_follows_the_camera() {
         // Twice as large, turned by 90 degrees: (x, y) goes to (-2 y + 7, 2 x + 5).
         let motion = CameraMotion([0.0, -2.0, 7.0, 2.0, 0.0, 5.0]);
-        let mut target = Target::blank();
         let before = State::new(10.0, 20.0, 4.0, 6.0);
-        target.begin(1, &Detection { rect: before.into(), score: 0.9, ..Default::default() }, 0, 0, 2);
+        let mut target = Target::born(&Detection { rect: before.into(), score: 0.9, ..Default::default() }, 0, 2);
         target.velocity = State::new(1.0, 3.0, 0.5, 0.25);
         target.particles[1].velocity = target.velocity;
         target.history.push_back(Observation { time: 3.0, state: before });

@@ -145,8 +145,7 @@ mod tests {
     use crate::frame::Detection;
 
     fn regress(p: &GenTrack2Parameters, track: &[(f64, f64)]) -> State {
-        let mut target = Target::blank();
-        target.begin(1, &Detection::new(0.0, 0.0, 30.0, 40.0, 0.9), 0, 0, 1);
+        let mut target = Target::born(&Detection::new(0.0, 0.0, 30.0, 40.0, 0.9), 0, 1);
         let reach = Reach::new(p, 1.0);
         let mut regression = VelocityRegression::default();
         for &(time, u) in track {

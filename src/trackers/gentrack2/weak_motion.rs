@@ -121,9 +121,8 @@ mod tests {
 
     /// A 30 x 40 box (diagonal 50) at the given centre that moved by `step` in this frame.
     fn target(centre: Vector, step: Vector) -> Target {
-        let mut target = Target::blank();
         let state = State::new(centre.0, centre.1, 30.0, 40.0);
-        target.begin(1, &Detection { rect: state.into(), score: 0.9, ..Default::default() }, 0, 0, 1);
+        let mut target = Target::born(&Detection { rect: state.into(), score: 0.9, ..Default::default() }, 0, 1);
         target.previous = State::new(centre.0 - step.0, centre.1 - step.1, 30.0, 40.0);
         target.velocity = State::new(step.0, step.1, 0.0, 0.0);
         target

@@ -1,0 +1,61 @@
+//! What every algorithm keeps of a track for its caller: identity, ages, and what came with the detection last taken.
+
+use crate::frame::Detection;
+use crate::geometry::{Rect, State};
+use crate::track::{Track, TrackState};
+
+/// The outer life of a track.
+#[derive(Clone, Debug, Default)]
+pub struct Life {
+    /// Identity.
+    pub id: u64,
+    /// The detection last taken.
+    pub last: Detection,
+    /// Its row in the frame, if it was taken in this frame.
+    pub row: Option<u32>,
+    /// Frames since birth, the birth counted.
+    pub frames: u32,
+    /// Detections taken, that of the birth included.
+    pub hits: u32,
+    /// Frames without a match.
+    pub frames_since_match: u32,
+}
+
+impl Life {
+    /// A life that begins with a detection.
+    pub fn begin(id: u64, row: u32, detection: &Detection) -> Self {
+        Self { id, last: *detection, row: Some(row), frames: 1, hits: 1, frames_since_match: 0 }
+    }
+
+    /// A frame later, nothing taken yet.
+    pub fn next_frame(&mut self) {
+        self.row = None;
+        self.frames = self.frames.saturating_add(1);
+        self.frames_since_match = self.frames_since_match.saturating_add(1);
+    }
+
+    /// Takes a detection of this frame.
+    pub fn take(&mut self, row: u32, detection: &Detection) {
+        self.last = *detection;
+        self.row = Some(row);
+        self.hits = self.hits.saturating_add(1);
+        self.frames_since_match = 0;
+    }
+
+    /// The track as its caller sees it; `velocity` is per second.
+    pub fn track(&self, rect: Rect, velocity: State, state: TrackState) -> Track {
+        Track {
+            id: self.id,
+            rect,
+            velocity,
+            state,
+            score: self.last.score,
+            class_id: self.last.class_id,
+            tag: self.last.tag,
+            detection_index: self.row.map(|row| row as usize),
+            age: self.frames,
+            hits: self.hits,
+            frames_since_match: self.frames_since_match,
+        }
+    }
+}
