@@ -73,6 +73,11 @@ impl Assignment {
         &self.column_of_row
     }
 
+    /// For each row of the last problem its column or [`UNMATCHED`].
+    pub fn column_of_row(&self) -> &[u32] {
+        &self.column_of_row
+    }
+
     /// For each column of the last problem its row or [`UNMATCHED`].
     pub fn row_of_column(&self) -> &[u32] {
         &self.row_of_column

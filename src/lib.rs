@@ -21,6 +21,7 @@ pub mod assignment;
 pub mod candidates;
 pub mod classes;
 pub mod config;
+pub mod embedding;
 pub mod error;
 pub mod frame;
 pub mod geometry;

@@ -324,6 +324,22 @@ macro_rules! parameters {
 }
 pub(crate) use parameters;
 
+/// For an algorithm whose only preset is its defaults.
+macro_rules! only_default_preset {
+    ($name:ident) => {
+        impl $name {
+            /// Names of the presets, the default first.
+            pub const PRESETS: &'static [&'static str] = &["default"];
+
+            /// The values of a preset.
+            pub fn preset(name: &str) -> Option<Self> {
+                (name == "default").then(Self::default)
+            }
+        }
+    };
+}
+pub(crate) use only_default_preset;
+
 parameters! {
     /// Parameters of the handle, the same for every algorithm.
     pub struct CommonParameters {

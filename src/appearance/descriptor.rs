@@ -23,7 +23,7 @@ pub fn cosine(a: &Descriptor, b: &Descriptor) -> f32 {
 }
 
 /// Scales to unit Euclidean norm; an all-zero vector stays.
-pub(super) fn normalize(descriptor: &mut Descriptor) {
+pub fn normalize(descriptor: &mut Descriptor) {
     let squared = dot(descriptor, descriptor);
     if squared > 0.0 {
         let scale = 1.0 / squared.sqrt();

@@ -28,6 +28,6 @@ mod gray;
 mod hog;
 mod orientation;
 
-pub use descriptor::{CELLS_X, CELLS_Y, DESCRIPTOR_LEN, Descriptor, EMPTY, cosine};
+pub use descriptor::{CELLS_X, CELLS_Y, DESCRIPTOR_LEN, Descriptor, EMPTY, cosine, normalize};
 pub use hog::{HogWorkspace, MAX_MARGIN, MIN_HEIGHT, MIN_WIDTH};
 pub use orientation::BINS;

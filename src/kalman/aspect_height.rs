@@ -113,7 +113,7 @@ mod tests {
         ];
         let rect = |[l, t, w, h]: [f64; 4]| Rect::new(l, t, w, h);
         let mut filter = AspectHeight::new(&rect(seen[0].unwrap()));
-        let mut check = |when: &str, filter: &AspectHeight| {
+        let check = |when: &str, filter: &AspectHeight| {
             let expected = match when {
                 "2 predicted" => [125.0, 250.0, 0.5, 100.0, 0.0, 0.0, 0.0, 164.0625, 0.0002, 39.453125],
                 "2" => [

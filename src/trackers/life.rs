@@ -59,3 +59,21 @@ impl Life {
         }
     }
 }
+
+/// Smallest height, and smallest width where a filter divides by it, of a detection that a Kalman filter can take, in
+/// pixels.
+pub const SMALLEST: f64 = 1e-3;
+
+/// A filter's box as it is handed out: of a state that is no box any more, the detection last taken.
+pub fn presentable(state: &State, last: &Detection) -> Rect {
+    if !crate::kalman::is_sane(state) {
+        return last.rect;
+    }
+    Rect::from(State { w: state.w.max(0.0), h: state.h.max(0.0), ..*state })
+}
+
+/// A filter's velocity as it is handed out, per second.
+pub fn presentable_velocity(velocity: State, frame_rate: f64) -> State {
+    let finite = |x: f64| if x.is_finite() { x * frame_rate } else { 0.0 };
+    State::new(finite(velocity.u), finite(velocity.v), finite(velocity.w), finite(velocity.h))
+}

@@ -1,7 +1,12 @@
 //! The algorithms, by name.
 
+pub mod botsort;
+pub mod bytetrack;
 pub mod gentrack2;
 mod life;
+mod overlaps;
+pub mod smiletrack;
+mod two_round;
 
 use crate::error::Error;
 use crate::frame::Frame;
@@ -87,6 +92,12 @@ macro_rules! algorithms {
 algorithms! {
     /// GenTrack2: particles guided by swarm optimisation, deterministic association, neighbour-aware updates.
     GenTrack2 = "gentrack2", gentrack2::GenTrack2Parameters;
+    /// ByteTrack: IoU in two rounds, high scores first.
+    ByteTrack = "bytetrack", bytetrack::ByteTrackParameters;
+    /// BoT-SORT: ByteTrack with camera motion and embeddings.
+    BotSort = "botsort", botsort::BotSortParameters;
+    /// SMILEtrack: BoT-SORT whose embeddings refuse pairs.
+    SmileTrack = "smiletrack", smiletrack::SmileTrackParameters;
 }
 
 impl Algorithm {

@@ -1,9 +1,9 @@
 //! What a target remembers of its looks: learnt when a detection is taken, never while it is hidden.
 
-use crate::appearance::HogWorkspace;
+use crate::appearance::{Descriptor, HogWorkspace, normalize};
 use crate::image::ImageView;
 
-use super::observations::{Observations, to_unit};
+use super::observations::Observations;
 use super::parameters::GenTrack2Parameters;
 use super::target::Target;
 
@@ -18,27 +18,21 @@ pub fn learn(
 ) {
     if let Some(seen) = observations.descriptor(index, image, hog) {
         match target.has_template {
-            true => blend(&mut target.template[..], seen, p.template_momentum),
+            true => blend(&mut target.template, seen, p.template_momentum),
             false => *target.template = *seen,
         }
         target.has_template = true;
     }
     if let Some(seen) = observations.embedding(index) {
-        match target.embedding.len() == seen.len() {
-            true => blend(&mut target.embedding, seen, p.template_momentum),
-            false => {
-                target.embedding.clear();
-                target.embedding.extend_from_slice(seen);
-            }
-        }
+        target.embedding.learn(seen, p.template_momentum);
     }
 }
 
-fn blend(memory: &mut [f32], seen: &[f32], momentum: f64) {
+fn blend(memory: &mut Descriptor, seen: &Descriptor, momentum: f64) {
     for (old, new) in memory.iter_mut().zip(seen) {
         *old = (momentum * *old as f64 + (1.0 - momentum) * *new as f64) as f32;
     }
-    to_unit(memory);
+    normalize(memory);
 }
 
 #[cfg(test)]
@@ -59,9 +53,9 @@ mod tests {
             observations.prepare(&frame, 0.0);
             learn(&p, &mut target, &mut observations, 0, None, &mut hog);
         }
+        let distance = target.embedding.distance(&[1.0, 0.0]).unwrap();
         // The mean of (1, 0) and (0, 1), normalised: both components sqrt(1/2).
-        let expected = 0.5f32.sqrt();
-        assert!(target.embedding.iter().all(|x| (x - expected).abs() < 1e-6), "{:?}", target.embedding);
+        assert!((distance - (1.0 - 0.5f64.sqrt())).abs() < 1e-6, "{distance}");
         assert!(!target.has_template);
     }
 }

@@ -8,7 +8,7 @@ use crate::geometry::{Rect, State};
 use crate::image::ImageView;
 
 use super::fitness::appearance;
-use super::observations::{Observations, Observed, unit_cosine};
+use super::observations::{Observations, Observed};
 use super::parameters::GenTrack2Parameters;
 use super::residual::SceneResidual;
 use super::target::{Match, Target};
@@ -165,12 +165,8 @@ pub fn looks_alike(
 
 /// Weighted embedding dissimilarity less the room that the gate gives for it.
 fn embedding_part(p: &GenTrack2Parameters, target: &Target, observations: &Observations, column: usize) -> f64 {
-    match observations.embedding(column) {
-        Some(embedding) if !target.embedding.is_empty() => {
-            p.embedding_cost * 0.5 * (1.0 - unit_cosine(&target.embedding, embedding)) - p.embedding_gate
-        }
-        _ => 0.0,
-    }
+    let distance = observations.embedding(column).and_then(|seen| target.embedding.distance(seen));
+    distance.map_or(0.0, |distance| p.embedding_cost * 0.5 * distance - p.embedding_gate)
 }
 
 /// Weighted HOG dissimilarity less the room that the gate gives for it.

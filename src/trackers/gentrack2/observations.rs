@@ -2,7 +2,8 @@
 //! caller's, with what they look like.
 
 use crate::appearance::{Descriptor, HogWorkspace};
-use crate::frame::{Detection, Embeddings, Frame};
+use crate::embedding::UnitRows;
+use crate::frame::{Detection, Frame};
 use crate::geometry::{Rect, State};
 use crate::image::ImageView;
 
@@ -34,9 +35,7 @@ pub struct Observations {
     list: Vec<Observed>,
     // By index; valid where the look is `Seen`.
     descriptors: Vec<Descriptor>,
-    // Unit embeddings by row of the frame; empty without.
-    embeddings: Vec<f32>,
-    dimension: usize,
+    embeddings: UnitRows,
 }
 
 impl Observations {
@@ -59,7 +58,7 @@ impl Observations {
             let rest = |o: &Observed| (o.detection.class_id, o.detection.tag, o.row);
             boxes.unwrap_or_else(|| rest(a).cmp(&rest(b)))
         });
-        self.normalise(frame.embeddings.as_ref(), frame.detections.len());
+        self.embeddings.fill(frame.embeddings.as_ref(), frame.detections.len());
     }
 
     /// How many there are.
@@ -73,10 +72,8 @@ impl Observations {
     }
 
     /// The unit embedding of detection `index`; `None` without embeddings, or for a vector of zeros.
-    pub fn embedding(&self, index: usize) -> Option<&[f32]> {
-        let start = self.list[index].row as usize * self.dimension;
-        let row = self.embeddings.get(start..start + self.dimension)?;
-        row.iter().any(|x| *x != 0.0).then_some(row)
+    pub fn embedding(&self, index: usize) -> Option<&[f64]> {
+        self.embeddings.row(self.list[index].row as usize)
     }
 
     /// What detection `index` looks like, worked out when first asked for.
@@ -97,34 +94,12 @@ impl Observations {
         }
         matches!(observed.look, Look::Seen).then_some(&*descriptor)
     }
-
-    fn normalise(&mut self, embeddings: Option<&Embeddings<'_>>, rows: usize) {
-        self.embeddings.clear();
-        self.dimension = embeddings.map_or(0, |e| e.dimension);
-        let Some(embeddings) = embeddings else { return };
-        for row in 0..rows {
-            let start = self.embeddings.len();
-            self.embeddings.extend_from_slice(embeddings.row(row));
-            to_unit(&mut self.embeddings[start..]);
-        }
-    }
-}
-
-/// Scales a vector to length 1; one too short to have a direction becomes zeros.
-pub fn to_unit(vector: &mut [f32]) {
-    let norm = vector.iter().map(|x| *x as f64 * *x as f64).sum::<f64>().sqrt();
-    let scale = if norm > 1e-20 { 1.0 / norm } else { 0.0 };
-    vector.iter_mut().for_each(|x| *x = (*x as f64 * scale) as f32);
-}
-
-/// Cosine of two unit vectors in `[-1, 1]`.
-pub fn unit_cosine(a: &[f32], b: &[f32]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| *x as f64 * *y as f64).sum::<f64>().clamp(-1.0, 1.0)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::frame::Embeddings;
 
     #[test]
     fn unusable_detections_are_left_out_and_the_rest_is_in_a_fixed_order() {
@@ -142,16 +117,14 @@ mod tests {
     }
 
     #[test]
-    fn embeddings_are_normalised_and_zeros_are_none() {
+    fn embeddings_stay_with_their_detections() {
         let detections = [Detection::new(0.0, 0.0, 10.0, 10.0, 0.5), Detection::new(0.0, 0.0, 10.0, 10.0, 0.9)];
-        let data = [0.0, 0.0, 3.0, 4.0];
+        let data = [0.0, 0.0, 0.0, 2.0];
         let frame = Frame { embeddings: Some(Embeddings::new(&data, 2)), ..Frame::new(&detections) };
         let mut observations = Observations::default();
         observations.prepare(&frame, 0.0);
         // The better scored detection, row 1, comes first.
-        assert_eq!(observations.embedding(0), Some(&[0.6f32, 0.8][..]));
+        assert_eq!(observations.embedding(0), Some(&[0.0, 1.0][..]));
         assert_eq!(observations.embedding(1), None);
-        observations.prepare(&Frame::new(&detections), 0.0);
-        assert_eq!(observations.embedding(0), None);
     }
 }

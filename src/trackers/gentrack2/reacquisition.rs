@@ -137,7 +137,7 @@ mod tests {
         assert_eq!(found(&targets, &parameters()), Some(1));
         assert_eq!(found(&targets, &GenTrack2Parameters { reacquire_reach: 0.0, ..parameters() }), None);
         // The nearest looks the opposite, so it is the other one.
-        targets[1].embedding = vec![-1.0, 0.0];
+        targets[1].embedding.learn(&[-1.0, 0.0], 0.0);
         assert_eq!(found(&targets, &parameters()), Some(0));
     }
 }

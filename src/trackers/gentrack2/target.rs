@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 
 use crate::appearance::Descriptor;
+use crate::embedding::MeanEmbedding;
 use crate::frame::{CameraMotion, Detection};
 use crate::geometry::State;
 use crate::random::Random;
@@ -100,8 +101,8 @@ pub struct Target {
     pub template: Box<Descriptor>,
     /// Whether there is a template.
     pub has_template: bool,
-    /// Unit embedding learnt from strong updates; empty without.
-    pub embedding: Vec<f32>,
+    /// Embedding learnt from strong updates.
+    pub embedding: MeanEmbedding,
     /// Its own random numbers: they do not depend on the other targets.
     pub random: Random,
 }
@@ -132,7 +133,7 @@ impl Target {
             looked_at: false,
             template: Box::new([0.0; _]),
             has_template: false,
-            embedding: Vec::new(),
+            embedding: MeanEmbedding::default(),
             random: Random::new(0, 0),
         }
     }

@@ -1,0 +1,176 @@
+//! Re-identification embeddings: those of a frame as unit vectors, and what a track remembers of them.
+
+use std::collections::VecDeque;
+
+use crate::frame::Embeddings;
+
+/// The embeddings of a frame, scaled to length 1.
+#[derive(Clone, Debug, Default)]
+pub struct UnitRows {
+    data: Vec<f64>,
+    dimension: usize,
+}
+
+impl UnitRows {
+    /// Takes the embeddings of `rows` detections; without embeddings there are none.
+    pub fn fill(&mut self, embeddings: Option<&Embeddings<'_>>, rows: usize) {
+        self.data.clear();
+        self.dimension = embeddings.map_or(0, |e| e.dimension);
+        let Some(embeddings) = embeddings else { return };
+        for row in 0..rows {
+            let start = self.data.len();
+            self.data.extend(embeddings.row(row).iter().map(|x| *x as f64));
+            to_unit(&mut self.data[start..]);
+        }
+    }
+
+    /// The unit embedding of a detection; `None` without embeddings, or for a vector too short to have a direction.
+    pub fn row(&self, row: usize) -> Option<&[f64]> {
+        let start = row * self.dimension;
+        let embedding = self.data.get(start..start + self.dimension)?;
+        embedding.iter().any(|x| *x != 0.0).then_some(embedding)
+    }
+}
+
+/// A running mean of unit embeddings, kept at length 1.
+#[derive(Clone, Debug, Default)]
+pub struct MeanEmbedding(Vec<f64>);
+
+impl MeanEmbedding {
+    /// Forgets everything but the memory it occupies.
+    pub fn clear(&mut self) {
+        self.0.clear();
+    }
+
+    /// Learns a unit embedding; `momentum` is the share of what was known.
+    pub fn learn(&mut self, seen: &[f64], momentum: f64) {
+        if self.0.len() != seen.len() {
+            self.0.clear();
+            self.0.extend_from_slice(seen);
+            return;
+        }
+        for (old, new) in self.0.iter_mut().zip(seen) {
+            *old = momentum * *old + (1.0 - momentum) * *new;
+        }
+        to_unit(&mut self.0);
+    }
+
+    /// `1 - cosine`, in `[0, 2]`, to a unit embedding; `None` before anything was learnt.
+    pub fn distance(&self, seen: &[f64]) -> Option<f64> {
+        (self.0.len() == seen.len()).then(|| (1.0 - dot(&self.0, seen)).clamp(0.0, 2.0))
+    }
+}
+
+/// The latest unit embeddings of a track, in 32 bits.
+#[derive(Clone, Debug, Default)]
+pub struct Gallery(VecDeque<f32>);
+
+impl Gallery {
+    /// Forgets everything but the memory it occupies.
+    pub fn clear(&mut self) {
+        self.0.clear();
+    }
+
+    /// Adds a unit embedding; beyond `budget` of them the oldest ones go.
+    pub fn add(&mut self, seen: &[f64], budget: usize) {
+        if self.0.len() >= seen.len() * budget {
+            self.0.drain(..self.0.len() + seen.len() - seen.len() * budget);
+        }
+        self.0.extend(seen.iter().map(|x| *x as f32));
+    }
+
+    /// The smallest `1 - cosine`, in `[0, 2]`, to a unit embedding; `None` of an empty gallery.
+    pub fn distance(&self, seen: &[f64]) -> Option<f64> {
+        if self.0.is_empty() || !self.0.len().is_multiple_of(seen.len()) {
+            return None;
+        }
+        // Rows are added and dropped whole, and the capacity may not be a multiple of a row's length: a row can lie
+        // across the ring's seam.
+        let (front, back) = self.0.as_slices();
+        let (whole, head) = front.split_at(front.len() - front.len() % seen.len());
+        let tail_length = if head.is_empty() { 0 } else { seen.len() - head.len() };
+        let (tail, rest) = back.split_at(tail_length);
+        let rows = whole.chunks_exact(seen.len()).chain(rest.chunks_exact(seen.len()));
+        let mut best = rows.map(|row| dot_32(row, seen)).fold(f64::NEG_INFINITY, f64::max);
+        if !head.is_empty() {
+            best = best.max(dot_32(head, seen) + dot_32(tail, &seen[head.len()..]));
+        }
+        Some((1.0 - best).clamp(0.0, 2.0))
+    }
+}
+
+/// Scales a vector to length 1; one too short to have a direction becomes zeros.
+fn to_unit(vector: &mut [f64]) {
+    let norm = dot(vector, vector).sqrt();
+    let scale = if norm > 1e-20 { 1.0 / norm } else { 0.0 };
+    vector.iter_mut().for_each(|x| *x *= scale);
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    sum_of_products(a.len().min(b.len()), |i| a[i] * b[i])
+}
+
+fn dot_32(a: &[f32], b: &[f64]) -> f64 {
+    sum_of_products(a.len().min(b.len()), |i| a[i] as f64 * b[i])
+}
+
+/// Four sums side by side, which a compiler can compute at once, in an order that does not depend on the machine.
+#[inline(always)]
+fn sum_of_products(length: usize, product: impl Fn(usize) -> f64) -> f64 {
+    let mut sums = [0.0; 4];
+    let whole = length - length % 4;
+    for i in (0..whole).step_by(4) {
+        for (lane, sum) in sums.iter_mut().enumerate() {
+            *sum += product(i + lane);
+        }
+    }
+    let rest: f64 = (whole..length).map(product).sum();
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_are_scaled_to_length_one_and_zeros_are_none() {
+        let data = [0.0, 0.0, 3.0, 4.0];
+        let mut rows = UnitRows::default();
+        rows.fill(Some(&Embeddings::new(&data, 2)), 2);
+        assert_eq!(rows.row(0), None);
+        let unit = rows.row(1).unwrap();
+        assert!((unit[0] - 0.6).abs() + (unit[1] - 0.8).abs() < 1e-15, "{unit:?}");
+        rows.fill(None, 2);
+        assert_eq!(rows.row(1), None);
+    }
+
+    #[test]
+    fn the_mean_is_kept_at_length_one() {
+        let mut mean = MeanEmbedding::default();
+        assert_eq!(mean.distance(&[1.0, 0.0]), None);
+        mean.learn(&[1.0, 0.0], 0.5);
+        mean.learn(&[0.0, 1.0], 0.5);
+        // The mean of (1, 0) and (0, 1), normalised: both components sqrt(1/2).
+        let distance = mean.distance(&[1.0, 0.0]).unwrap();
+        assert!((distance - (1.0 - 0.5f64.sqrt())).abs() < 1e-15, "{distance}");
+    }
+
+    #[test]
+    fn a_gallery_keeps_the_newest_and_finds_the_nearest() {
+        // Directions of 0, 10, 20, ... degrees in the first two of five components; a budget of 3.
+        let at = |degrees: f64| {
+            let (sin, cos) = libm::sincos(degrees.to_radians());
+            [cos, sin, 0.0, 0.0, 0.0]
+        };
+        let mut gallery = Gallery::default();
+        assert_eq!(gallery.distance(&at(0.0)), None);
+        for newest in 0..40 {
+            gallery.add(&at(10.0 * newest as f64), 3);
+            let oldest = 10.0 * (newest - 2).max(0) as f64;
+            // 30 degrees before the oldest one that is kept: 1 - cos(30).
+            let distance = gallery.distance(&at(oldest - 30.0)).unwrap();
+            assert!((distance - (1.0 - 0.75f64.sqrt())).abs() < 1e-6, "after {newest}: {distance}");
+            assert!(gallery.distance(&at(oldest)).unwrap() < 1e-6);
+        }
+    }
+}
