@@ -78,6 +78,12 @@ impl Assignment {
         &self.column_of_row
     }
 
+    /// For each row of the last problem its price: with the columns', which are never positive, it adds up to at most
+    /// the cost of each pair, exactly for the pairs matched.
+    pub fn row_potential(&self) -> &[f64] {
+        &self.row_potential
+    }
+
     /// For each column of the last problem its row or [`UNMATCHED`].
     pub fn row_of_column(&self) -> &[u32] {
         &self.row_of_column

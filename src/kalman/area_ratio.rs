@@ -2,6 +2,7 @@
 //! OC-SORT.
 
 use super::Axis;
+use crate::frame::CameraMotion;
 use crate::geometry::{Rect, State};
 
 /// Variance of centre, area and ratio at birth, and of the velocities.
@@ -83,6 +84,16 @@ impl AreaRatio {
         self.v.correct(z.v, MEASURED_CENTRE);
         self.area.correct(z.area, MEASURED_SHAPE);
         self.ratio.correct(z.ratio, MEASURED_SHAPE);
+    }
+
+    /// Goes along with the camera: the centre as a point, the size by the map's scale.
+    pub fn follow_camera(&mut self, motion: &CameraMotion) {
+        (self.u.x, self.v.x) = motion.apply_point(self.u.x, self.v.x);
+        (self.u.v, self.v.v) = motion.apply_vector(self.u.v, self.v.v);
+        let (kw, kh) = motion.size_factors();
+        self.area.x *= kw * kh;
+        self.area.v *= kw * kh;
+        self.ratio.x *= kw / kh;
     }
 
     /// Centre and size; not a number where area or ratio are not positive.

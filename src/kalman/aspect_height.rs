@@ -69,6 +69,11 @@ impl BoxFilter for AspectHeight {
 
     fn follow_camera(&mut self, motion: &CameraMotion) {
         (self.u.x, self.v.x) = motion.apply_point(self.u.x, self.v.x);
+        (self.u.v, self.v.v) = motion.apply_vector(self.u.v, self.v.v);
+        let (kw, kh) = motion.size_factors();
+        self.height.x *= kh;
+        self.height.v *= kh;
+        self.aspect.x *= kw / kh;
     }
 
     fn state(&self) -> State {

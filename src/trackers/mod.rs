@@ -6,6 +6,8 @@ pub mod gentrack2;
 mod life;
 mod overlaps;
 pub mod smiletrack;
+pub mod sort;
+mod sort_family;
 mod two_round;
 
 use crate::error::Error;
@@ -92,6 +94,8 @@ macro_rules! algorithms {
 algorithms! {
     /// GenTrack2: particles guided by swarm optimisation, deterministic association, neighbour-aware updates.
     GenTrack2 = "gentrack2", gentrack2::GenTrack2Parameters;
+    /// SORT: a Kalman filter and IoU.
+    Sort = "sort", sort::SortParameters;
     /// ByteTrack: IoU in two rounds, high scores first.
     ByteTrack = "bytetrack", bytetrack::ByteTrackParameters;
     /// BoT-SORT: ByteTrack with camera motion and embeddings.

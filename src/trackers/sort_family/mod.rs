@@ -1,0 +1,28 @@
+//! What SORT and OC-SORT have in common: runs of matches that decide what is reported, and an association over all
+//! pairs from which those that overlap too little are dropped afterwards.
+
+mod full_association;
+mod run;
+
+pub use full_association::FullAssociation;
+pub use run::Run;
+
+use crate::track::{Output, Track};
+
+/// Walks the tracks from the newest to the oldest: lists those that stay, ends those that go.
+pub fn list_and_remove<T>(
+    tracks: &mut Vec<T>,
+    output: &mut Output,
+    is_over: impl Fn(&T) -> bool,
+    shown: impl Fn(&T) -> (Track, bool),
+    mut retire: impl FnMut(T),
+) {
+    for track in tracks.iter().rev().filter(|t| !is_over(t)) {
+        let (track, reported) = shown(track);
+        output.list(track, reported);
+    }
+    for track in tracks.extract_if(.., |t| is_over(t)) {
+        output.ended.push(shown(&track).0.id);
+        retire(track);
+    }
+}
