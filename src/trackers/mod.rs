@@ -4,6 +4,7 @@ pub mod botsort;
 pub mod bytetrack;
 pub mod gentrack2;
 mod life;
+pub mod ocsort;
 mod overlaps;
 pub mod smiletrack;
 pub mod sort;
@@ -98,6 +99,8 @@ algorithms! {
     Sort = "sort", sort::SortParameters;
     /// ByteTrack: IoU in two rounds, high scores first.
     ByteTrack = "bytetrack", bytetrack::ByteTrackParameters;
+    /// OC-SORT: SORT steered by observations instead of predictions.
+    OcSort = "ocsort", ocsort::OcSortParameters;
     /// BoT-SORT: ByteTrack with camera motion and embeddings.
     BotSort = "botsort", botsort::BotSortParameters;
     /// SMILEtrack: BoT-SORT whose embeddings refuse pairs.

@@ -58,11 +58,6 @@ impl Overlaps {
         }));
         &self.pairs
     }
-
-    /// The pairs last found.
-    pub fn pairs(&self) -> &[Overlap] {
-        &self.pairs
-    }
 }
 
 /// Fills `edges` with the pairs that have a cost.

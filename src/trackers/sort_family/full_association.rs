@@ -43,15 +43,40 @@ impl FullAssociation {
         threshold: f64,
         allowed: impl Fn(u32, u32) -> bool,
     ) {
-        let rows = detections.len();
-        self.tracks = tracks.len();
-        self.threshold = threshold;
-        refill(&mut self.row_hits, rows, 0);
-        refill(&mut self.column_hits, self.tracks, 0);
-        refill(&mut self.partners, rows, UNMATCHED);
+        let sizes = (detections.len(), tracks.len());
         let pairs = self.overlaps.between(Extent::Continuous, detections, tracks);
         self.pairs.clear();
         self.pairs.extend(pairs.iter().filter(|p| allowed(p.row, p.column)));
+        self.count_hits(sizes, threshold);
+    }
+
+    /// The same with another measure than the IoU, in `[0, 1]`. All allowed pairs count, or, where there are absurdly
+    /// many, the overlapping ones.
+    pub fn begin_with(
+        &mut self,
+        detections: impl ExactSizeIterator<Item = Rect> + Clone,
+        tracks: impl ExactSizeIterator<Item = Rect> + Clone,
+        value: impl Fn(&Rect, &Rect) -> f64,
+        threshold: f64,
+        allowed: impl Fn(u32, u32) -> bool,
+    ) {
+        if detections.len().saturating_mul(tracks.len()) > MOST_EXTRA {
+            return self.begin(detections, tracks, threshold, allowed);
+        }
+        self.pairs.clear();
+        for (row, detection) in (0..).zip(detections.clone()) {
+            let pairs = (0..).zip(tracks.clone()).filter(|(column, _)| allowed(row, *column));
+            self.pairs.extend(pairs.map(|(column, track)| Overlap { row, column, iou: value(&detection, &track) }));
+        }
+        self.count_hits((detections.len(), tracks.len()), threshold);
+    }
+
+    fn count_hits(&mut self, (rows, tracks): (usize, usize), threshold: f64) {
+        self.tracks = tracks;
+        self.threshold = threshold;
+        refill(&mut self.row_hits, rows, 0);
+        refill(&mut self.column_hits, tracks, 0);
+        refill(&mut self.partners, rows, UNMATCHED);
         for p in self.pairs.iter().filter(|p| p.iou > threshold) {
             self.row_hits[p.row as usize] += 1;
             self.column_hits[p.column as usize] += 1;

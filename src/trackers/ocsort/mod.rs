@@ -1,0 +1,223 @@
+//! OC-SORT: SORT that trusts what was observed more than what was predicted. Cao et al., "Observation-Centric SORT:
+//! Rethinking SORT for Robust Multi-Object Tracking", CVPR 2023.
+//!
+//! | idea | file |
+//! |---|---|
+//! | directions of motion speak in the association (OCM) | [`heading`] |
+//! | a track found again relives the gap (ORU) | [`reupdate`] |
+//! | tracks are sought where they were last observed (OCR) | `recovery_round` below |
+
+mod heading;
+mod observed_track;
+mod parameters;
+mod reupdate;
+mod similarity;
+
+pub use parameters::*;
+
+use super::TrackingAlgorithm;
+use super::life::SMALLEST;
+use super::sort_family::{FullAssociation, list_and_remove};
+use crate::assignment::UNMATCHED;
+use crate::frame::{Detection, Frame};
+use crate::geometry::Rect;
+use crate::kalman::is_sane;
+use crate::track::Output;
+use crate::tracker::StepContext;
+
+use heading::Heading;
+use observed_track::{Observations, ObservedTrack};
+
+/// The tracker.
+pub struct OcSort {
+    parameters: OcSortParameters,
+    /// In the order of their births.
+    tracks: Vec<ObservedTrack>,
+    work: Workspace,
+}
+
+/// Buffers that are only there to be reused.
+#[derive(Default)]
+struct Workspace {
+    high: Vec<u32>,
+    low: Vec<u32>,
+    /// Tracks not matched yet.
+    unmatched: Vec<u32>,
+    views: Vec<View>,
+    association: FullAssociation,
+    spare: Vec<Observations>,
+}
+
+/// A track as it is before any association of the frame.
+#[derive(Clone, Copy)]
+struct View {
+    predicted: Rect,
+    /// The latest observation; a box without a size before the first.
+    observed: Rect,
+    heading: Option<Heading>,
+    class: i32,
+}
+
+impl OcSort {
+    /// A tracker without tracks.
+    pub fn new(parameters: OcSortParameters) -> Self {
+        Self { parameters, tracks: Vec::new(), work: Workspace::default() }
+    }
+
+    fn predict(&mut self, frame: &Frame<'_>, dt: f64, output: &mut Output) {
+        let motion = frame.camera_motion.as_ref().filter(|_| self.parameters.use_camera_motion);
+        for track in &mut self.tracks {
+            track.predict(dt);
+            if let Some(motion) = motion {
+                track.follow_camera(motion);
+            }
+        }
+        // A box without a size has no future.
+        for track in self.tracks.extract_if(.., |t| !is_sane(&t.filter.state())) {
+            output.ended.push(track.life.id);
+            self.work.spare.push(track.observations);
+        }
+    }
+
+    fn split_by_score(&mut self, detections: &[Detection]) {
+        let (p, work) = (&self.parameters, &mut self.work);
+        work.high.clear();
+        work.low.clear();
+        for (detection, row) in detections.iter().zip(0..).filter(|(d, _)| d.rect.height >= SMALLEST) {
+            if detection.score > p.det_thresh {
+                work.high.push(row);
+            } else if detection.score > p.low_thresh && detection.score < p.det_thresh {
+                work.low.push(row);
+            }
+        }
+    }
+
+    fn look(&mut self) {
+        let (p, work) = (&self.parameters, &mut self.work);
+        work.unmatched.clear();
+        work.unmatched.extend(0..self.tracks.len() as u32);
+        work.views.clear();
+        work.views.extend(self.tracks.iter().map(|track| View {
+            predicted: track.filter.state().into(),
+            observed: track.observations.last_box(),
+            heading: track.heading(p.delta_t as u64),
+            class: track.life.last.class_id,
+        }));
+    }
+
+    /// Predictions with high scores: IoU, and how well the direction towards the detection goes with the track's own.
+    fn first_round(&mut self, detections: &[Detection], context: &StepContext<'_>) {
+        let (p, Workspace { high, views, association, .. }) = (&self.parameters, &mut self.work);
+        let detection = |d: u32| &detections[high[d as usize] as usize];
+        let view = |t: u32| &views[t as usize];
+        let allowed = |d: u32, t: u32| context.classes.allows(view(t).class, detection(d).class_id);
+        let boxes = high.iter().map(|row| detections[*row as usize].rect);
+        association.begin(boxes, views.iter().map(|v| v.predicted), p.iou_threshold, allowed);
+        if !association.match_unambiguous() {
+            let bonus = |d: u32, t: u32| {
+                let consistency = view(t).heading.as_ref().map_or(0.0, |h| h.consistency(&detection(d).rect));
+                p.inertia * detection(d).score * consistency
+            };
+            association.best_sum(bonus, |d| 0.5 * p.inertia * detection(d).score, allowed);
+        }
+        self.take_partners(detections, true);
+    }
+
+    /// The tracks left over with the low scores; what is left of these is forgotten.
+    fn low_score_round(&mut self, detections: &[Detection], context: &StepContext<'_>) {
+        if self.parameters.use_byte && self.compare(detections, context, false, |view| view.predicted) {
+            self.take_partners(detections, false);
+        }
+    }
+
+    /// The tracks left over, where they were last observed, with the high scores left over.
+    fn recovery_round(&mut self, detections: &[Detection], context: &StepContext<'_>) {
+        if self.compare(detections, context, true, |view| view.observed) {
+            self.take_partners(detections, true);
+        }
+    }
+
+    /// Associates the tracks left over, at the boxes that `place` names, with detections; false if no pair is similar
+    /// enough to begin with.
+    fn compare(
+        &mut self,
+        detections: &[Detection],
+        context: &StepContext<'_>,
+        high: bool,
+        place: impl Fn(&View) -> Rect,
+    ) -> bool {
+        let (p, work) = (&self.parameters, &mut self.work);
+        let rows = if high { &work.high } else { &work.low };
+        let (views, unmatched, association) = (&work.views, &work.unmatched, &mut work.association);
+        let view = |t: u32| &views[unmatched[t as usize] as usize];
+        let detection = |d: u32| &detections[rows[d as usize] as usize];
+        let allowed = |d: u32, t: u32| context.classes.allows(view(t).class, detection(d).class_id);
+        let boxes = rows.iter().map(|row| detections[*row as usize].rect);
+        let places = unmatched.iter().map(|t| place(&views[*t as usize]));
+        similarity::begin(p.asso_func, association, boxes, places, p.iou_threshold, allowed);
+        if !association.has_hits() {
+            return false;
+        }
+        association.best_overlap();
+        true
+    }
+
+    /// Lets the tracks take their partners, and strikes both off the lists of those left over.
+    fn take_partners(&mut self, detections: &[Detection], high: bool) {
+        let (p, work) = (&self.parameters, &mut self.work);
+        let rows = if high { &mut work.high } else { &mut work.low };
+        let partners = work.association.partners();
+        for (&row, &slot) in rows.iter().zip(partners).filter(|(_, slot)| **slot != UNMATCHED) {
+            let track = std::mem::replace(&mut work.unmatched[slot as usize], UNMATCHED);
+            self.tracks[track as usize].take(row, &detections[row as usize], p.delta_t as u64);
+        }
+        work.unmatched.retain(|track| *track != UNMATCHED);
+        let mut partners = partners.iter();
+        rows.retain(|_| partners.next() == Some(&UNMATCHED));
+    }
+
+    fn start_tracks(&mut self, detections: &[Detection], context: &mut StepContext<'_>) {
+        let room = context.max_tracks.saturating_sub(self.tracks.len());
+        for &row in self.work.high.iter().take(room) {
+            let observations = self.work.spare.pop().unwrap_or_default();
+            let id = context.ids.take();
+            self.tracks.push(ObservedTrack::born(id, row, &detections[row as usize], observations));
+        }
+    }
+}
+
+impl TrackingAlgorithm for OcSort {
+    fn step(&mut self, frame: &Frame<'_>, context: &mut StepContext<'_>, output: &mut Output) {
+        self.predict(frame, context.elapsed, output);
+        if !frame.detector_skipped {
+            for track in &mut self.tracks {
+                track.run.next_frame(context.since_detector);
+            }
+            self.split_by_score(frame.detections);
+            self.look();
+            self.first_round(frame.detections, context);
+            self.low_score_round(frame.detections, context);
+            self.recovery_round(frame.detections, context);
+            for &track in &self.work.unmatched {
+                self.tracks[track as usize].miss();
+            }
+            self.start_tracks(frame.detections, context);
+            for track in &mut self.tracks {
+                track.run.judge(self.parameters.min_hits, context.detector_frames);
+            }
+        }
+        let (max_age, rate) = (self.parameters.max_age, context.frame_rate);
+        let spare = &mut self.work.spare;
+        list_and_remove(
+            &mut self.tracks,
+            output,
+            |t| t.run.is_over(max_age),
+            |t| t.shown(rate, !frame.detector_skipped),
+            |t| spare.push(t.observations),
+        );
+    }
+
+    fn reset(&mut self) {
+        self.work.spare.extend(self.tracks.drain(..).map(|t| t.observations));
+    }
+}

@@ -1,0 +1,128 @@
+//! One track: a filter, and the observations it is steered by.
+
+use std::collections::VecDeque;
+
+use super::heading::{Direction, Heading};
+use super::reupdate::GapMemory;
+use crate::frame::{CameraMotion, Detection};
+use crate::geometry::{Rect, State};
+use crate::kalman::{AreaRatio, Measurement};
+use crate::track::Track;
+use crate::trackers::life::{Life, presentable, presentable_velocity};
+use crate::trackers::sort_family::Run;
+
+/// Added to a box's height where its aspect ratio is measured.
+const EPSILON: f64 = 1e-6;
+
+/// The latest observations, by the track's age.
+#[derive(Default)]
+pub struct Observations {
+    list: VecDeque<(u64, Rect, f64)>,
+}
+
+impl Observations {
+    /// The box of the latest; one without a size before the first.
+    pub fn last_box(&self) -> Rect {
+        self.list.back().map_or(Rect::default(), |(_, rect, _)| *rect)
+    }
+
+    /// The oldest of the last `delta_t` frames, or else the latest of all.
+    fn look_back(&self, age: u64, delta_t: u64) -> Option<Rect> {
+        let recent = self.list.iter().find(|(at, ..)| at + delta_t >= age);
+        recent.or(self.list.back()).map(|(_, rect, _)| *rect)
+    }
+
+    fn add(&mut self, age: u64, detection: &Detection, delta_t: u64) {
+        while self.list.front().is_some_and(|(at, ..)| at + delta_t < age) {
+            self.list.pop_front();
+        }
+        self.list.push_back((age, detection.rect, detection.score));
+    }
+
+    /// The reference tells whether there is an observation by the sign of this sum, so a box far outside the image to
+    /// the left or above counts as none in some places.
+    fn counts(&self) -> bool {
+        let sum = |(_, r, score): &(u64, Rect, f64)| r.left + r.top + r.right() + r.bottom() + score;
+        self.list.back().is_some_and(|last| sum(last) >= 0.0)
+    }
+}
+
+/// A track.
+pub struct ObservedTrack {
+    pub life: Life,
+    pub run: Run,
+    pub filter: AreaRatio,
+    pub observations: Observations,
+    gap: GapMemory,
+    direction: Option<Direction>,
+    age: u64,
+}
+
+impl ObservedTrack {
+    /// The detection of the birth is no observation.
+    pub fn born(id: u64, row: u32, detection: &Detection, mut observations: Observations) -> Self {
+        observations.list.clear();
+        Self {
+            life: Life::begin(id, row, detection),
+            run: Run::default(),
+            filter: AreaRatio::new(&Measurement::of(&detection.rect, EPSILON)),
+            observations,
+            gap: GapMemory::default(),
+            direction: None,
+            age: 0,
+        }
+    }
+
+    /// Moves on by `dt` frames.
+    pub fn predict(&mut self, dt: f64) {
+        self.life.next_frame();
+        self.filter.clamp_area(dt);
+        self.filter.predict(dt);
+        self.gap.step(dt);
+        self.age += 1;
+    }
+
+    /// Goes along with the camera.
+    pub fn follow_camera(&mut self, motion: &CameraMotion) {
+        self.filter.follow_camera(motion);
+        self.gap.follow_camera(motion);
+        for (_, rect, _) in &mut self.observations.list {
+            *rect = motion.apply_state(&State::from(*rect)).into();
+        }
+        self.direction = self.direction.map(|d| d.turned(motion));
+    }
+
+    /// Where directions are reckoned from, and the track's own, once it has one.
+    pub fn heading(&self, delta_t: u64) -> Option<Heading> {
+        Some(Heading { from: self.observations.look_back(self.age, delta_t)?, direction: self.direction? })
+    }
+
+    /// Takes a detection.
+    pub fn take(&mut self, row: u32, detection: &Detection, delta_t: u64) {
+        if self.observations.counts()
+            && let Some(from) = self.observations.look_back(self.age, delta_t)
+        {
+            self.direction = Some(Direction::between(&from, &detection.rect));
+        }
+        self.observations.add(self.age, detection, delta_t);
+        self.life.take(row, detection);
+        self.run.matched();
+        self.gap.correct(&mut self.filter, &Measurement::of(&detection.rect, EPSILON));
+    }
+
+    /// Was not matched on a frame on which the detector ran.
+    pub fn miss(&mut self) {
+        self.gap.miss(&self.filter);
+    }
+
+    /// As its caller sees it: seen, it is where it was observed.
+    pub fn shown(&self, frame_rate: f64, detector_ran: bool) -> (Track, bool) {
+        let observed = detector_ran && self.run.is_seen() && self.observations.counts();
+        let rect = match observed {
+            true => self.observations.last_box(),
+            false => presentable(&self.filter.state(), &self.life.last),
+        };
+        let velocity = presentable_velocity(self.filter.velocity(), frame_rate);
+        (self.life.track(rect, velocity, self.run.state()), self.run.is_reported())
+    }
+}
