@@ -132,9 +132,21 @@ impl OcSort {
 
     /// The tracks left over, where they were last observed, with the high scores left over.
     fn recovery_round(&mut self, detections: &[Detection], context: &StepContext<'_>) {
+        if self.is_undefined(detections) {
+            return;
+        }
         if self.compare(detections, context, true, |view| view.observed) {
             self.take_partners(detections, true);
         }
+    }
+
+    /// In the reference the IoU of a detection without an area and a track without an observation is 0/0, and no
+    /// number is larger than that: there is no recovery in such a frame. The golden outputs have it so.
+    fn is_undefined(&self, detections: &[Detection]) -> bool {
+        let work = &self.work;
+        self.parameters.asso_func == Similarity::Iou
+            && work.high.iter().any(|row| detections[*row as usize].rect.area() == 0.0)
+            && work.unmatched.iter().any(|track| work.views[*track as usize].observed.area() == 0.0)
     }
 
     /// Associates the tracks left over, at the boxes that `place` names, with detections; false if no pair is similar
