@@ -6,6 +6,7 @@ pub mod gentrack2;
 mod life;
 pub mod ocsort;
 mod overlaps;
+mod pairing;
 pub mod smiletrack;
 pub mod sort;
 mod sort_family;

@@ -14,17 +14,25 @@ mod parameters;
 pub use cost::Looks;
 pub(super) use parameters::two_round_parameters;
 
-use crate::assignment::{Assignment, Edge, UNMATCHED};
 use crate::embedding::{MeanEmbedding, UnitRows};
-use crate::frame::{Detection, Frame};
+use crate::frame::Frame;
 use crate::kalman::{BoxFilter, is_sane};
 use crate::track::Output;
 use crate::tracker::StepContext;
 use crate::trackers::TrackingAlgorithm;
 use crate::trackers::life::SMALLEST;
-use crate::trackers::overlaps::{Extent, Overlap, Overlaps, fill_edges};
+use crate::trackers::overlaps::{Extent, Overlaps};
+use crate::trackers::pairing::Pairing;
 
 use member::{Fate, Member};
+
+/// Which tracks meet which detections.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Round {
+    HighScores,
+    LowScores,
+    Unconfirmed,
+}
 
 /// What the trackers of the family differ in.
 #[derive(Clone, Debug)]
@@ -73,7 +81,8 @@ struct Workspace<F> {
     high: Vec<u32>,
     low: Vec<u32>,
     pool: Vec<u32>,
-    association: Association,
+    pairing: Pairing,
+    overlaps: Overlaps,
     next: Vec<Member<F>>,
     spare: Vec<MeanEmbedding>,
     duplicates: Vec<u32>,
@@ -86,58 +95,12 @@ impl<F> Default for Workspace<F> {
             high: Vec::new(),
             low: Vec::new(),
             pool: Vec::new(),
-            association: Association::default(),
+            pairing: Pairing::default(),
+            overlaps: Overlaps::default(),
             next: Vec::new(),
             spare: Vec::new(),
             duplicates: Vec::new(),
         }
-    }
-}
-
-/// One round's search for pairs.
-#[derive(Default)]
-struct Association {
-    overlaps: Overlaps,
-    edges: Vec<Edge>,
-    solver: Assignment,
-    /// `(member, row)` of the pairs.
-    pairs: Vec<(u32, u32)>,
-}
-
-impl Association {
-    /// Pairs the members of `pool` with the detections of `rows`; what is paired is taken out of both lists.
-    fn pair<F: BoxFilter>(
-        &mut self,
-        members: &[Member<F>],
-        pool: &mut Vec<u32>,
-        detections: &[Detection],
-        rows: &mut Vec<u32>,
-        limit: f64,
-        cost: impl Fn(&Member<F>, usize, f64) -> f64,
-        allowed: impl Fn(i32, i32) -> bool,
-    ) {
-        let boxes = pool.iter().map(|m| members[*m as usize].rect());
-        let pairs = self.overlaps.between(Extent::Inclusive, boxes, rows.iter().map(|r| detections[*r as usize].rect));
-        fill_edges(&mut self.edges, pairs, |p: &Overlap| {
-            let member = &members[pool[p.row as usize] as usize];
-            let row = rows[p.column as usize] as usize;
-            let same = allowed(member.life.last.class_id, detections[row].class_id);
-            Some(cost(member, row, p.iou)).filter(|cost| same && *cost <= limit)
-        });
-        let columns = self.solver.solve(pool.len(), rows.len(), &self.edges, limit);
-        self.pairs.clear();
-        let matched = columns.iter().zip(pool.iter()).filter(|(column, _)| **column != UNMATCHED);
-        self.pairs.extend(matched.map(|(column, member)| (*member, rows[*column as usize])));
-        let (mut at, mut column) = (0, 0);
-        let columns = self.solver.row_of_column();
-        pool.retain(|_| {
-            at += 1;
-            self.solver.column_of_row()[at - 1] == UNMATCHED
-        });
-        rows.retain(|_| {
-            column += 1;
-            columns[column - 1] == UNMATCHED
-        });
     }
 }
 
@@ -197,44 +160,58 @@ impl<F: BoxFilter> TwoRound<F> {
         work.embeddings.fill(frame.embeddings.as_ref(), frame.detections.len());
     }
 
-    /// The three rounds.
     fn associate(&mut self, frame: &Frame<'_>, context: &StepContext<'_>) {
-        let detections = frame.detections;
-        let (rules, work) = (&self.rules, &mut self.work);
-        let classes = context.classes;
-        let allowed = |a, b| classes.allows(a, b);
-        work.pool.clear();
-        let pool = self.members.iter().zip(0..).filter(|(m, _)| m.activated).map(|(_, i)| i);
-        work.pool.extend(pool);
-        let Workspace { association, embeddings, pool, high, low, .. } = work;
-
-        let first = |m: &Member<F>, row: usize, iou| rules.first_cost(m, &detections[row], embeddings.row(row), iou);
-        association.pair(&self.members, pool, detections, high, rules.limits[0], first, allowed);
-        for &(member, row) in &association.pairs {
-            let (member, detection) = (&mut self.members[member as usize], &detections[row as usize]);
-            member.take(row, detection, self.now);
-            member.learn(embeddings.row(row as usize), rules.momentum);
-        }
-
-        pool.retain(|m| self.members[*m as usize].fate == Fate::Tracked);
-        association.pair(&self.members, pool, detections, low, rules.limits[1], |_, _, iou| 1.0 - iou, allowed);
-        for &(member, row) in &association.pairs {
-            self.members[member as usize].take(row, &detections[row as usize], self.now);
-        }
-        for member in pool.drain(..) {
+        self.fill_pool(|m| m.activated);
+        self.round(Round::HighScores, frame, context);
+        let (members, pool) = (&mut self.members, &mut self.work.pool);
+        pool.retain(|m| members[*m as usize].fate == Fate::Tracked);
+        self.round(Round::LowScores, frame, context);
+        for member in self.work.pool.drain(..) {
             self.members[member as usize].fate = Fate::NewlyLost;
         }
-
-        pool.extend(self.members.iter().zip(0..).filter(|(m, _)| !m.activated).map(|(_, i)| i));
-        let third = |m: &Member<F>, row: usize, iou| rules.third_cost(m, &detections[row], embeddings.row(row), iou);
-        association.pair(&self.members, pool, detections, high, rules.limits[2], third, allowed);
-        for &(member, row) in &association.pairs {
-            let (member, detection) = (&mut self.members[member as usize], &detections[row as usize]);
-            member.take(row, detection, self.now);
-            member.learn(embeddings.row(row as usize), rules.momentum);
-        }
-        for member in pool.drain(..) {
+        self.fill_pool(|m| !m.activated);
+        self.round(Round::Unconfirmed, frame, context);
+        for member in self.work.pool.drain(..) {
             self.members[member as usize].fate = Fate::Gone;
+        }
+    }
+
+    fn fill_pool(&mut self, wanted: impl Fn(&Member<F>) -> bool) {
+        self.work.pool.clear();
+        self.work.pool.extend((0..).zip(&self.members).filter(|(_, m)| wanted(m)).map(|(i, _)| i));
+    }
+
+    /// Lets the pool take detections; those without one stay in it.
+    fn round(&mut self, round: Round, frame: &Frame<'_>, context: &StepContext<'_>) {
+        let Self { rules, members, work, now, .. } = self;
+        let Workspace { pairing, embeddings, pool, high, low, .. } = work;
+        let detection = |row: u32| &frame.detections[row as usize];
+        let cost = |member: u32, row: u32, iou: f64| {
+            let (member, detection) = (&members[member as usize], detection(row));
+            if !context.classes.allows(member.life.last.class_id, detection.class_id) {
+                return f64::INFINITY;
+            }
+            let embedding = embeddings.row(row as usize);
+            match round {
+                Round::HighScores => rules.first_cost(member, detection, embedding, iou),
+                Round::LowScores => 1.0 - iou,
+                Round::Unconfirmed => rules.third_cost(member, detection, embedding, iou),
+            }
+        };
+        let (rows, limit) = match round {
+            Round::HighScores => (high, rules.limits[0]),
+            Round::LowScores => (low, rules.limits[1]),
+            Round::Unconfirmed => (high, rules.limits[2]),
+        };
+        let place = |member: u32| members[member as usize].rect();
+        let pairs = pairing.pair(Extent::Inclusive, pool, place, rows, |row| detection(row).rect, limit, cost);
+        for &(member, row) in pairs {
+            let member = &mut members[member as usize];
+            member.take(row, detection(row), *now);
+            // Detections of a low score have no embedding worth learning.
+            if round != Round::LowScores {
+                member.learn(embeddings.row(row as usize), rules.momentum);
+            }
         }
     }
 
@@ -287,9 +264,10 @@ impl<F: BoxFilter> TwoRound<F> {
     fn drop_duplicates(&mut self, context: &StepContext<'_>, output: &mut Output) {
         let (tracked, lost) = self.members.split_at(self.tracked);
         let work = &mut self.work;
-        let overlaps = &mut work.association.overlaps;
         work.duplicates.clear();
-        for p in overlaps.between(Extent::Inclusive, tracked.iter().map(Member::rect), lost.iter().map(Member::rect)) {
+        for p in
+            work.overlaps.between(Extent::Inclusive, tracked.iter().map(Member::rect), lost.iter().map(Member::rect))
+        {
             let (a, b) = (&tracked[p.row as usize], &lost[p.column as usize]);
             let comparable = context.classes.allows(a.life.last.class_id, b.life.last.class_id);
             if comparable && 1.0 - p.iou < self.rules.duplicate_distance {
