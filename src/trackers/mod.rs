@@ -2,6 +2,7 @@
 
 pub mod botsort;
 pub mod bytetrack;
+pub mod deepsort;
 pub mod gentrack2;
 mod life;
 pub mod ocsort;
@@ -98,6 +99,8 @@ algorithms! {
     GenTrack2 = "gentrack2", gentrack2::GenTrack2Parameters;
     /// SORT: a Kalman filter and IoU.
     Sort = "sort", sort::SortParameters;
+    /// DeepSORT: SORT with embeddings.
+    DeepSort = "deepsort", deepsort::DeepSortParameters;
     /// ByteTrack: IoU in two rounds, high scores first.
     ByteTrack = "bytetrack", bytetrack::ByteTrackParameters;
     /// OC-SORT: SORT steered by observations instead of predictions.

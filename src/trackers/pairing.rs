@@ -40,13 +40,13 @@ impl Pairing {
     /// The same for costs that are known: `edges` between positions in both lists, sorted by row.
     pub fn pair_edges(
         &mut self,
-        edges: impl Iterator<Item = Edge>,
+        edges: &[Edge],
         tracks: &mut Vec<u32>,
         others: &mut Vec<u32>,
         limit: f64,
     ) -> &[(u32, u32)] {
         self.edges.clear();
-        self.edges.extend(edges);
+        self.edges.extend_from_slice(edges);
         self.match_edges(tracks, others, limit)
     }
 
