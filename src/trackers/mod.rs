@@ -2,6 +2,7 @@
 
 pub mod botsort;
 pub mod bytetrack;
+pub mod conftrack;
 pub mod deepsort;
 pub mod gentrack2;
 mod life;
@@ -109,6 +110,8 @@ algorithms! {
     BotSort = "botsort", botsort::BotSortParameters;
     /// SMILEtrack: BoT-SORT whose embeddings refuse pairs.
     SmileTrack = "smiletrack", smiletrack::SmileTrackParameters;
+    /// ConfTrack: rounds steered by the scores of detections.
+    ConfTrack = "conftrack", conftrack::ConfTrackParameters;
 }
 
 impl Algorithm {
