@@ -78,7 +78,7 @@ impl Tracker {
         Ok(Self {
             algorithm: config.algorithm(),
             common: config.common.clone(),
-            inner: config.parameters.build()?,
+            inner: config.parameters.build_for(config.common.class_policy)?,
             ids: IdSource { next: config.common.first_id as u64 },
             history: History::default(),
             detector: DetectorClock::default(),

@@ -24,6 +24,24 @@ const CHOICES: &[(&str, &[(&str, &str)])] = &[
     ),
     ("weak_motion", &[("own", "by its own velocity"), ("neighbours", "with its trustworthy neighbours")]),
     (
+        "asso_func",
+        &[
+            ("iou", "intersection over union"),
+            ("giou", "less the empty share of the box around both"),
+            ("diou", "IoU less the distance of the centres"),
+            ("ciou", "the same less a term for different shapes"),
+            ("centre_distance", "one minus the distance of the centres over the largest of all pairs"),
+        ],
+    ),
+    (
+        "class_policy",
+        &[
+            ("ignore", "nothing, a track takes detections of any class"),
+            ("same_class", "a track takes detections of its own class only, all else is shared"),
+            ("separate", "each class is tracked as if the others were not there"),
+        ],
+    ),
+    (
         "regression_lags",
         &[("sparse", "half and the whole of the window"), ("all", "every lag up to the window (the paper)")],
     ),

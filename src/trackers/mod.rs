@@ -9,11 +9,13 @@ mod life;
 pub mod ocsort;
 mod overlaps;
 mod pairing;
+mod separate_classes;
 pub mod smiletrack;
 pub mod sort;
 mod sort_family;
 mod two_round;
 
+use crate::classes::ClassPolicy;
 use crate::error::Error;
 use crate::frame::Frame;
 use crate::parameters::ParameterSet;
@@ -63,6 +65,8 @@ macro_rules! algorithms {
         }
 
         /// The parameters of one algorithm.
+        // There are few of them, and they are not copied about.
+        #[allow(clippy::large_enum_variant)]
         #[derive(Clone, Debug, PartialEq)]
         pub enum AlgorithmParameters { $($(#[doc = $doc])+ $variant($parameters)),+ }
 
@@ -112,6 +116,16 @@ algorithms! {
     SmileTrack = "smiletrack", smiletrack::SmileTrackParameters;
     /// ConfTrack: rounds steered by the scores of detections.
     ConfTrack = "conftrack", conftrack::ConfTrackParameters;
+}
+
+impl AlgorithmParameters {
+    /// A tracker with these parameters that makes of class ids what the policy says.
+    pub fn build_for(&self, policy: ClassPolicy) -> Result<Box<dyn TrackingAlgorithm>, Error> {
+        match policy {
+            ClassPolicy::Ignore | ClassPolicy::SameClass => self.build(),
+            ClassPolicy::Separate => Ok(Box::new(separate_classes::SeparateClasses::new(self)?)),
+        }
+    }
 }
 
 impl Algorithm {

@@ -109,7 +109,7 @@ mod tests {
             Detection::new(2.0, 0.0, 10.0, 10.0, 0.75),
         ];
         let p = GenTrack2Parameters { birth_iou: 0.5, ..Default::default() };
-        assert_eq!(chosen_rows(&p, &[strong.clone()], &detections, 10), [1]);
+        assert_eq!(chosen_rows(&p, std::slice::from_ref(&strong), &detections, 10), [1]);
         let off = GenTrack2Parameters { birth_iou: 1.0, ..Default::default() };
         assert_eq!(chosen_rows(&off, &[strong], &detections, 10), [0, 1, 2]);
     }

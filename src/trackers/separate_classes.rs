@@ -1,0 +1,121 @@
+//! Each class tracked as if the others were not there: one tracker of the algorithm per class, all with identities from
+//! one source.
+
+use std::collections::BTreeMap;
+
+use super::{AlgorithmParameters, TrackingAlgorithm};
+use crate::error::Error;
+use crate::frame::{Detection, Embeddings, Frame};
+use crate::track::{Output, Particle, Track};
+use crate::tracker::StepContext;
+
+/// Trackers of classes without live tracks are kept, with what they learnt of the scene, while there are no more
+/// classes than this. Class ids are any numbers, so somebody may use very many.
+const MOST_IDLE: usize = 256;
+
+/// The trackers by class.
+pub struct SeparateClasses {
+    parameters: AlgorithmParameters,
+    classes: BTreeMap<i32, ClassTracker>,
+    /// Rows of the frame by class.
+    order: Vec<u32>,
+    detections: Vec<Detection>,
+    embeddings: Vec<f32>,
+    part: Output,
+}
+
+struct ClassTracker {
+    inner: Box<dyn TrackingAlgorithm>,
+    live: usize,
+}
+
+impl SeparateClasses {
+    /// Without tracks; refuses combinations of parameters that make no sense.
+    pub fn new(parameters: &AlgorithmParameters) -> Result<Self, Error> {
+        parameters.build()?;
+        Ok(Self {
+            parameters: parameters.clone(),
+            classes: BTreeMap::new(),
+            order: Vec::new(),
+            detections: Vec::new(),
+            embeddings: Vec::new(),
+            part: Output::default(),
+        })
+    }
+
+    /// Sorts the rows by class, and sees to it that each class has a tracker.
+    fn sort(&mut self, frame: &Frame<'_>) {
+        let class = |row: u32| frame.detections[row as usize].class_id;
+        self.order.clear();
+        self.order.extend(0..frame.detections.len() as u32);
+        self.order.sort_unstable_by_key(|row| (class(*row), *row));
+        for rows in self.order.chunk_by(|a, b| class(*a) == class(*b)) {
+            self.classes.entry(class(rows[0])).or_insert_with(|| ClassTracker {
+                inner: self.parameters.build().expect("these parameters have been built before"),
+                live: 0,
+            });
+        }
+    }
+
+    fn drop_idle(&mut self) {
+        if self.classes.len() > MOST_IDLE {
+            self.classes.retain(|_, c| c.live > 0);
+        }
+    }
+}
+
+impl TrackingAlgorithm for SeparateClasses {
+    fn step(&mut self, frame: &Frame<'_>, context: &mut StepContext<'_>, output: &mut Output) {
+        self.sort(frame);
+        let mut live: usize = self.classes.values().map(|c| c.live).sum();
+        let mut rest = &self.order[..];
+        for (&class, tracker) in &mut self.classes {
+            let count = rest.iter().take_while(|row| frame.detections[**row as usize].class_id == class).count();
+            let (rows, others) = rest.split_at(count);
+            rest = others;
+            self.detections.clear();
+            self.detections.extend(rows.iter().map(|row| frame.detections[*row as usize]));
+            self.embeddings.clear();
+            if let Some(all) = &frame.embeddings {
+                self.embeddings.extend(rows.iter().flat_map(|row| all.row(*row as usize)));
+            }
+            let of_class = Frame {
+                detections: &self.detections,
+                embeddings: frame.embeddings.as_ref().map(|all| Embeddings::new(&self.embeddings, all.dimension)),
+                ..*frame
+            };
+            let others = live - tracker.live;
+            let mut context = StepContext {
+                max_tracks: context.max_tracks.saturating_sub(others),
+                ids: &mut *context.ids,
+                ..*context
+            };
+            self.part.begin(count);
+            tracker.inner.step(&of_class, &mut context, &mut self.part);
+            tracker.live = self.part.reported.len() + self.part.tentative.len() + self.part.lost.len();
+            live = others + tracker.live;
+            merge(&self.part, rows, output);
+        }
+        self.drop_idle();
+    }
+
+    fn reset(&mut self) {
+        self.classes.clear();
+    }
+
+    fn particles(&self, id: u64) -> &[Particle] {
+        self.classes.values().map(|c| c.inner.particles(id)).find(|p| !p.is_empty()).unwrap_or(&[])
+    }
+}
+
+/// Adds what became of the detections `rows` to the whole.
+fn merge(part: &Output, rows: &[u32], whole: &mut Output) {
+    let in_frame = |track: &Track| Track { detection_index: track.detection_index.map(|i| rows[i] as usize), ..*track };
+    whole.reported.extend(part.reported.iter().map(in_frame));
+    whole.tentative.extend(part.tentative.iter().map(in_frame));
+    whole.lost.extend(part.lost.iter().map(in_frame));
+    whole.ended.extend_from_slice(&part.ended);
+    for (row, id) in rows.iter().zip(&part.track_of_detection) {
+        whole.track_of_detection[*row as usize] = *id;
+    }
+}
