@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace gt2_mot {
+namespace examples {
 
 /// Writes a video in the best format that this OpenCV can write and most players can play.
 class VideoFile {
@@ -46,4 +46,4 @@ private:
     std::vector<cv::Mat> tiles_;
 };
 
-}  // namespace gt2_mot
+}  // namespace examples

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <numeric>
 
-namespace gt2_mot {
+namespace examples {
 
 std::string StepTimes::summary() const {
     if (microseconds_.empty()) return "steps 0";
@@ -23,4 +23,4 @@ std::string StepTimes::summary() const {
     return line;
 }
 
-}  // namespace gt2_mot
+}  // namespace examples

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace gt2_mot {
+namespace examples {
 
 class StepTimes {
 public:
@@ -20,4 +20,4 @@ private:
     std::vector<double> microseconds_;
 };
 
-}  // namespace gt2_mot
+}  // namespace examples

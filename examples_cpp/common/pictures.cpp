@@ -6,7 +6,7 @@
 
 #include "text.hpp"
 
-namespace gt2_mot {
+namespace examples {
 namespace {
 
 constexpr int tile_width = 640, gap = 6;
@@ -70,4 +70,4 @@ void ContactSheet::write() const {
     if (!written) throw UserError(path_ + ": OpenCV cannot write this picture (.png is usual)");
 }
 
-}  // namespace gt2_mot
+}  // namespace examples
