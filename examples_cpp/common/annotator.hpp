@@ -37,8 +37,8 @@ struct DrawnTrack {
 
 class Annotator {
 public:
-    /// Draws the tracks of a frame on `image` (BGR, 8 bits), with a caption and a legend. `motion` is the camera's since
-    /// the previous frame: trails move with the scene.
+    /// Draws the tracks of a frame on `image` (BGR, 8 bits), with a caption and a legend. `motion` is the camera's
+    /// since the previous frame: trails move with the scene.
     void draw(cv::Mat &image, const std::string &caption, const std::vector<DrawnTrack> &tracks,
               const std::optional<Affine> &motion);
 

@@ -126,7 +126,9 @@ void check_not_overwritten(const InputOptions &o, const std::vector<std::string>
 
 std::string tracker_names() {
     std::string names;
-    for (std::size_t i = 0; i < gt2_algorithm_count(); ++i) names += (i ? " " : "") + std::string(gt2_algorithm_name(i));
+    for (std::size_t i = 0; i < gt2_algorithm_count(); ++i) {
+        names += (i ? " " : "") + std::string(gt2_algorithm_name(i));
+    }
     return names;
 }
 

@@ -7,6 +7,12 @@
 
 namespace examples {
 
+double StepTimes::mean() const {
+    if (microseconds_.empty()) return 0.0;
+    const double total = std::accumulate(microseconds_.begin(), microseconds_.end(), 0.0);
+    return total / static_cast<double>(microseconds_.size());
+}
+
 std::string StepTimes::summary() const {
     if (microseconds_.empty()) return "steps 0";
     std::vector<double> sorted = microseconds_;

@@ -13,6 +13,9 @@ public:
 
     void add(Clock::duration step) { microseconds_.push_back(std::chrono::duration<double, std::micro>(step).count()); }
 
+    /// Mean in microseconds, 0 without steps.
+    double mean() const;
+
     /// One line: steps, total in ms; mean, median and 99th percentile in microseconds.
     std::string summary() const;
 
