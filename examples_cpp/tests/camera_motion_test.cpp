@@ -1,11 +1,17 @@
 // gentrack2_camera_motion.hpp: the estimated motion is the true one, and where there is none to be had it says so.
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
+#include <map>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "gentrack2.hpp"
@@ -32,6 +38,10 @@ const Affine identity = {{1, 0, 0, 0, 1, 0}};
 
 /// Noise of several wavelengths, all of them long enough for sub-pixel warps to be exact.
 cv::Mat texture(cv::Size size, int type, std::uint64_t seed) {
+    // The same ones are used again and again, and take their time.
+    static std::map<std::tuple<int, int, int, std::uint64_t>, cv::Mat> made;
+    cv::Mat &image = made[std::make_tuple(size.width, size.height, type, seed)];
+    if (!image.empty()) return image;
     cv::RNG random(seed);
     cv::Mat sum = cv::Mat::zeros(size, CV_MAKETYPE(CV_32F, CV_MAT_CN(type)));
     for (const double wavelength : {2.0, 4.0, 8.0, 16.0, 32.0}) {
@@ -41,7 +51,6 @@ cv::Mat texture(cv::Size size, int type, std::uint64_t seed) {
         // Blurred noise fades with the area of the blur.
         sum += noise * wavelength;
     }
-    cv::Mat image;
     cv::Scalar mean, deviation;
     cv::meanStdDev(sum, mean, deviation);
     sum.convertTo(image, CV_8U, 40.0 / deviation[0], 128.0);
