@@ -91,7 +91,9 @@ struct CameraMotion {
 
     /// Gives the map to a frame if it is reliable. Otherwise the frame gets none: the identity would say that the camera
     /// stood still. The frame points to this object, which must live until the step.
-    void give_to(gt2_frame &frame) const { frame.camera_motion = reliable ? affine.data() : nullptr; }
+    void give_to(gt2_frame &frame) const & { frame.camera_motion = reliable ? affine.data() : nullptr; }
+    /// A temporary would be gone before the step.
+    void give_to(gt2_frame &frame) const && = delete;
 
     /// The same for a new gentrack2::Frame, which copies the map.
     template <class Frame>

@@ -12,6 +12,8 @@
 #include <stdexcept>
 #include <string>
 #include <tuple>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "gentrack2.hpp"
@@ -435,6 +437,16 @@ void test_a_tracker_is_helped() {
     CHECK(with.identities == 4 && with.right == with.boxes && with.boxes >= 4 * 55);
     CHECK(without.identities > 4 && without.right < with.right);
 }
+
+template <class Motion, class Frame, class = void>
+struct Gives : std::false_type {};
+template <class Motion, class Frame>
+struct Gives<Motion, Frame, std::void_t<decltype(std::declval<Motion>().give_to(std::declval<Frame &>()))>>
+    : std::true_type {};
+
+// A gt2_frame points to the motion, so a temporary one must not compile.
+static_assert(Gives<const CameraMotion &, gt2_frame>::value && !Gives<CameraMotion, gt2_frame>::value);
+static_assert(Gives<const CameraMotion &, gentrack2::Frame>::value && Gives<CameraMotion, gentrack2::Frame>::value);
 
 /// What give_to gives to the two kinds of frame.
 void test_frames_get_only_what_is_reliable() {
