@@ -19,8 +19,8 @@
  * The map is that of gt2_frame.camera_motion: it takes a point (x, y) of the previous frame to (a x + b y + c,
  * d x + e y + f) in this one, in pixels of the image as given, whose first pixel has its centre at (0, 0).
  *
- * The same images and boxes give the same map, whatever the number of threads. It takes about 9 ms for an image of
- * 768x576 pixels and 12 ms for one of 1920x1080 on a core of a server.
+ * The same images and boxes give the same map, whatever the number of threads. It takes some 10 ms for an image of
+ * 768x576 pixels and 15 ms for one of 1920x1080, on one or two cores of a server.
  */
 #ifndef GENTRACK2_CAMERA_MOTION_HPP
 #define GENTRACK2_CAMERA_MOTION_HPP
