@@ -1,11 +1,16 @@
 /*
- * gentrack2_opencv.hpp: OpenCV's images and boxes for gentrack2. Header-only, C++11, the only file that knows OpenCV.
+ * gentrack2_opencv.hpp: OpenCV's images and boxes for gentrack2. Header-only, C++11.
  *
  *     gt2_image view = gentrack2::image(mat);                // no copy: `mat` must live until the step is done
  *     gt2_detection d = gentrack2::detection(rect, 0.9);     // from any cv::Rect_
  *     cv::Rect2d box = gentrack2::rect(track);               // from a track, detection or particle
  *
- * It goes with gentrack2.h alone as well as with gentrack2.hpp.
+ * It goes with gentrack2.h alone as well as with gentrack2.hpp, and all of the above links with opencv_core alone.
+ *
+ *     gentrack2::CameraMotionEstimator camera;               // camera.estimate(mat, detections).give_to(frame)
+ *
+ * is in gentrack2_camera_motion.hpp, which this header includes where OpenCV's modules imgproc, video and calib3d are
+ * installed; define GENTRACK2_OPENCV_CORE_ONLY to spare the compiler their headers.
  */
 #ifndef GENTRACK2_OPENCV_HPP
 #define GENTRACK2_OPENCV_HPP
@@ -70,5 +75,13 @@ cv::Rect_<T> rect(const Box &box) {
 }
 
 }  // namespace gentrack2
+
+// Before C++17 __has_include is an extension, which all the usual compilers have.
+#if !defined(GENTRACK2_OPENCV_CORE_ONLY) && defined(__has_include)
+#if __has_include(<opencv2/imgproc.hpp>) && __has_include(<opencv2/video/tracking.hpp>) && \
+    __has_include(<opencv2/calib3d.hpp>)
+#include "gentrack2_camera_motion.hpp"
+#endif
+#endif
 
 #endif  // GENTRACK2_OPENCV_HPP

@@ -23,7 +23,7 @@ fn what_came_with_a_detection_comes_back_on_its_track() {
             }
             // Another order every frame: nothing may hang on it.
             seen.rotate_left(index % 3);
-            // One that nobody takes.
+            // One that most ignore.
             seen.push(Detection { tag: 9999, ..Detection::new(1500.0, 900.0, 40.0, 90.0, 0.01) });
             let output = tracker.step(&Frame::new(&seen)).unwrap();
             assert_eq!(output.track_of_detection.len(), seen.len(), "{name}");

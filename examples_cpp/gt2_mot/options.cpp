@@ -1,17 +1,13 @@
 #include "options.hpp"
 
-#include <filesystem>
-#include <functional>
-#include <map>
 #include <string_view>
-#include <system_error>
 
-#include <gentrack2.h>
-
-#include "mot_io.hpp"
+#include "arguments.hpp"
 #include "text.hpp"
 
 namespace gt2_mot {
+
+using examples::UserError;
 
 namespace {
 
@@ -29,6 +25,9 @@ Tracks the objects of a video or of a file of detections and writes MOTChallenge
   --video FILE         frames for detector, appearance and drawing
   --images DIR         the same from the image files of a directory, in the order of their names
   --gmc FILE           camera motion, a line per frame: frame, then 2x3 affine row-major, previous -> current
+  --estimate-camera-motion
+                       estimate it from the images' background, all that lies outside the detections, and print to
+                       stderr for how many frames that failed
   --embeddings FILE    raw little-endian f32, one row per row of --det; needs --dim
   --dim N              numbers per embedding
   --min-score S        drop detections below S before the tracker sees them
@@ -59,108 +58,21 @@ Settings are applied in this order, later ones win: frame rate of the video, --c
 
 std::string usage() {
     static constexpr std::string_view placeholder = "@NAMES@";
-    std::string names, text = manual;
-    for (std::size_t i = 0; i < gt2_algorithm_count(); ++i) names += (i ? " " : "") + std::string(gt2_algorithm_name(i));
-    return text.replace(text.find(placeholder), placeholder.size(), names);
+    std::string text = manual;
+    return text.replace(text.find(placeholder), placeholder.size(), examples::tracker_names());
 }
-
 
 namespace {
 
-/// The arguments, and which option is being read.
-class Reader {
-public:
-    explicit Reader(const std::vector<std::string> &arguments) : arguments_(arguments) {}
-
-    bool next() {
-        if (at_ >= arguments_.size()) return false;
-        option_ = arguments_[at_++];
-        return true;
-    }
-
-    const std::string &option() const { return option_; }
-
-    const std::string &value() {
-        if (at_ >= arguments_.size()) throw UserError(option_ + " needs a value");
-        return arguments_[at_++];
-    }
-
-    [[noreturn]] void refuse(const std::string &value, const std::string &expected) const {
-        throw UserError(option_ + " " + value + ": expected " + expected);
-    }
-
-    double number(double low, double high, const std::string &expected) {
-        const std::string text = value();
-        const auto number = parse_number(text);
-        if (!number || *number < low || *number > high) refuse(text, expected);
-        return *number;
-    }
-
-    long integer(long low, long high) {
-        const std::string text = value();
-        const auto number = parse_integer(text);
-        if (!number || *number < low || *number > high) {
-            refuse(text, "an integer in " + std::to_string(low) + ".." + std::to_string(high));
-        }
-        return static_cast<long>(*number);
-    }
-
-    cv::Size size() {
-        const std::string text = value();
-        const auto cross = text.find('x');
-        const auto width = parse_integer(std::string_view(text).substr(0, cross));
-        const auto height = cross == std::string::npos ? std::nullopt : parse_integer(text.substr(cross + 1));
-        if (!width || !height || *width < 1 || *height < 1 || *width > 65535 || *height > 65535) {
-            refuse(text, "WIDTHxHEIGHT in pixels, such as 1920x1080");
-        }
-        return {static_cast<int>(*width), static_cast<int>(*height)};
-    }
-
-    std::vector<long> frame_list() {
-        const std::string text = value();
-        std::vector<long> frames;
-        for (const auto field : split_commas(text)) {
-            const auto frame = parse_integer(field);
-            if (!frame || *frame < 1 || *frame > max_frame) refuse(text, "frame numbers with commas between");
-            frames.push_back(static_cast<long>(*frame));
-        }
-        return frames;
-    }
-
-    std::pair<std::string, std::string> setting() {
-        const std::string text = value();
-        const auto equals = text.find('=');
-        if (equals == std::string::npos || equals == 0) refuse(text, "KEY=VALUE");
-        return {text.substr(0, equals), text.substr(equals + 1)};
-    }
-
-private:
-    const std::vector<std::string> &arguments_;
-    std::size_t at_ = 0;
-    std::string option_;
-};
-
 void check_together(const Options &o) {
     if (o.tracker.empty()) throw UserError("--tracker is missing (--help lists the options)");
-    if (o.det.empty() == o.detector.empty()) throw UserError("give either --det or --detector");
+    check_inputs(o.input);
     if (o.out.empty()) throw UserError("--out is missing");
-    const bool has_images = !o.video.empty() || !o.images.empty();
-    if (!o.video.empty() && !o.images.empty()) throw UserError("--video and --images exclude each other");
-    if (!o.detector.empty() && !has_images) throw UserError("--detector needs --video or --images");
-    if (!o.embeddings.empty() && o.det.empty()) throw UserError("--embeddings needs --det");
-    if (o.embeddings.empty() != (o.dimension == 0)) throw UserError("--embeddings and --dim need each other");
-    if (o.normalise_scores && o.det.empty()) throw UserError("--normalise-scores needs --det");
-    if (has_images && o.size) throw UserError("--size is for runs without --video and --images");
     const bool draws = !o.annotate.empty() || !o.sheet.empty();
-    if (draws && !has_images && !o.size) throw UserError("drawing needs --video, --images or --size");
-    for (const std::string *in : {&o.det, &o.video, &o.gmc, &o.embeddings, &o.config}) {
-        for (const std::string *out : {&o.out, &o.save_det, &o.annotate, &o.sheet}) {
-            std::error_code absent;
-            if (!in->empty() && std::filesystem::equivalent(*in, *out, absent)) {
-                throw UserError(*out + ": would overwrite what is read from it");
-            }
-        }
+    if (draws && !o.input.has_images() && !o.input.size) {
+        throw UserError("drawing needs --video, --images or --size");
     }
+    check_not_overwritten(o.input, {o.config}, {o.out, o.save_det, o.annotate, o.sheet});
     if (o.particles && !draws) throw UserError("--particles needs --annotate or --sheet");
     if (!o.sheet_frames.empty() && o.sheet.empty()) throw UserError("--sheet-frames needs --sheet");
 }
@@ -169,25 +81,15 @@ void check_together(const Options &o) {
 
 Options parse_options(const std::vector<std::string> &arguments) {
     Options o;
-    Reader r(arguments);
-    const std::map<std::string, std::function<void()>> readers = {
-        {"--help", [&] { o.help = true; }},
-        {"-h", [&] { o.help = true; }},
+    examples::ArgumentReader r(arguments);
+    examples::OptionTable table = {
         {"--tracker", [&] { o.tracker = r.value(); }},
-        {"--det", [&] { o.det = r.value(); }},
-        {"--detector", [&] { o.detector = r.value(); }},
         {"--out", [&] { o.out = r.value(); }},
-        {"--video", [&] { o.video = r.value(); }},
-        {"--images", [&] { o.images = r.value(); }},
-        {"--gmc", [&] { o.gmc = r.value(); }},
-        {"--embeddings", [&] { o.embeddings = r.value(); }},
-        {"--dim", [&] { o.dimension = static_cast<int>(r.integer(1, 16384)); }},
-        {"--min-score", [&] { o.min_score = r.number(0, 1, "a number in 0..1"); }},
-        {"--max-height", [&] { o.max_height = r.number(0, 1e6, "a number of pixels"); }},
-        {"--normalise-scores", [&] { o.normalise_scores = true; }},
-        {"--size", [&] { o.size = r.size(); }},
+        {"--gmc", [&] { o.input.gmc = r.value(); }},
+        {"--embeddings", [&] { o.input.embeddings = r.value(); }},
+        {"--dim", [&] { o.input.dimension = static_cast<int>(r.integer(1, 16384)); }},
+        {"--size", [&] { o.input.size = r.size(); }},
         {"--fps", [&] { o.fps = r.number(0, 1e6, "a number of frames per second"); }},
-        {"--frames", [&] { o.frames = r.integer(1, max_frame); }},
         {"--seed", [&] { o.seed = r.value(); }},
         {"--config", [&] { o.config = r.value(); }},
         {"--set", [&] { o.set.push_back(r.setting()); }},
@@ -199,14 +101,18 @@ Options parse_options(const std::vector<std::string> &arguments) {
         {"--save-det", [&] { o.save_det = r.value(); }},
         {"--time", [&] { o.time = true; }},
     };
-    while (r.next()) {
-        const auto reader = readers.find(r.option());
-        if (reader == readers.end()) throw UserError("unknown option " + r.option() + " (--help lists the options)");
-        reader->second();
-        if (o.help) return o;
-    }
-    check_together(o);
+    table.merge(examples::input_options(r, o.input));
+    o.help = examples::read_arguments(r, table);
+    if (!o.help) check_together(o);
     return o;
+}
+
+examples::TrackerSettings tracker_settings(const Options &o) {
+    examples::TrackerSettings s{o.tracker, "--tracker", o.config, {}};
+    for (const auto &[key, value] : o.set) s.settings.push_back({key, value, "--set " + key + "=" + value});
+    if (o.seed) s.settings.push_back({"seed", *o.seed, "--seed"});
+    if (o.fps) s.settings.push_back({"frame_rate", examples::text_of(*o.fps), "--fps"});
+    return s;
 }
 
 }  // namespace gt2_mot

@@ -2,7 +2,9 @@
 
 usage: gt2_mot_test.py PROGRAM
 """
+import math
 import os
+import random
 import re
 import struct
 import subprocess
@@ -25,6 +27,40 @@ def walk(frames):
 
 def text_of(rows):
     return "".join(f"{f},-1,{x},{y},{w},{h},{s},-1,-1,-1\n" for f, _, x, y, w, h, s in rows)
+
+
+class Swing:
+    """A camera that swings over a textured ground, on which three people walk: grey images of 320x240 pixels."""
+
+    width, height, margin = 320, 240, 80
+
+    def __init__(self, frames):
+        self.frames = frames
+        width, height = self.width + 2 * self.margin, self.height
+        source = random.Random(1)
+        ground = [[source.gauss(0, 1) for _ in range(width)] for _ in range(height)]
+        for _ in range(2):
+            # A running mean over 5 pixels of each row, then the same with rows and columns swapped.
+            for _ in range(2):
+                ground = [[sum(row[max(0, i - 2):i + 3]) for i in range(len(row))] for row in ground]
+                ground = [list(column) for column in zip(*ground)]
+        deviation = math.sqrt(sum(x * x for row in ground for x in row) / (width * height))
+        self.ground = [bytes(max(0, min(255, round(128 + 50 * x / deviation))) for x in row) for row in ground]
+
+    def camera(self, frame):
+        return round(60 * math.sin(0.6 * frame))
+
+    def image(self, frame):
+        """A PGM file."""
+        left = self.margin + self.camera(frame)
+        return b"P5 %d %d 255\n" % (self.width, self.height) + b"".join(
+            row[left:left + self.width] for row in self.ground)
+
+    def rows(self):
+        """As those of `walk`; each person is missed in three frames of every ten."""
+        return [(frame, person, 70 + 80 * person + 0.5 * frame - self.camera(frame), 80 + 10 * person, 25, 60, 0.9)
+                for frame in range(1, self.frames + 1) for person in range(3)
+                if frame < 10 or (frame + 3 * person) % 10 >= 3]
 
 
 class Case(unittest.TestCase):
@@ -271,13 +307,53 @@ class Trackers(Case):
         inputs = lambda end: self.oracle("synthetic", f"syn_b1.{end}")
         for name in names:
             with self.subTest(tracker=name):
-                done = self.run_program("--tracker", name, "--det", inputs("det.txt"), "--out", "-", "--gmc",
-                                        inputs("gmc.txt"), "--embeddings", inputs("f32"), "--dim", 16, "--min-score", 0.1,
-                                        "--set", "class_policy=separate", "--size", "1920x1080")
+                done = self.run_program("--tracker", name, "--det", inputs("det.txt"), "--out", "-",
+                                        "--gmc", inputs("gmc.txt"), "--embeddings", inputs("f32"), "--dim", 16,
+                                        "--min-score", 0.1, "--set", "class_policy=separate", "--size", "1920x1080")
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
                 rows = self.read(done.stdout.splitlines())
                 self.assertGreater(len(rows), 200)
                 self.assertTrue(all(len({track for track, _ in frame}) == len(frame) for frame in rows.values()))
+
+
+class CameraMotion(Case):
+    def swing(self, frames):
+        swing = Swing(frames)
+        os.makedirs(self.path("swing"))
+        for frame in range(1, frames + 1):
+            self.file(f"swing/{frame:03}.pgm", swing.image(frame))
+        return swing, self.file("det.txt", text_of(swing.rows())), self.path("swing")
+
+    def estimated(self, det, images):
+        done = self.run_program("--tracker", "gentrack2", "--det", det, "--images", images, "--out", "-",
+                                "--estimate-camera-motion")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout, done.stderr
+
+    def test_estimated_motion_is_as_good_as_known_motion(self):
+        swing, det, images = self.swing(40)
+        motion = [swing.camera(k - 1) - swing.camera(k) for k in range(1, 41)]
+        gmc = self.file("gmc.txt", "".join(f"{k} 1 0 {x} 0 1 0\n" for k, x in enumerate(motion, 1)))
+        known, unknown = (self.tracks("--det", det, "--images", images, *more) for more in (("--gmc", gmc), ()))
+        estimated, remark = self.estimated(det, images)
+        self.assertEqual(remark, "camera motion: not estimated in 0 of 39 frames\n")
+        table = lambda text: [[float(x) for x in line.split(",")] for line in text.splitlines()]
+        known, unknown, estimated = table(known), table(unknown), table(estimated)
+        identities = lambda rows: len({row[1] for row in rows})
+        self.assertEqual((identities(known), identities(estimated)), (3, 3))
+        self.assertGreater(identities(unknown), 3)
+        self.assertEqual([row[:2] for row in known], [row[:2] for row in estimated])
+        for a, b in zip(known, estimated):
+            for x, y in zip(a[2:6], b[2:6]):
+                self.assertAlmostEqual(x, y, delta=1)
+
+    def test_what_cannot_be_estimated_is_counted(self):
+        os.makedirs(self.path("flat"))
+        for frame in range(10):
+            self.file(f"flat/{frame}.pgm", b"P5 320 240 255\n" + bytes([100]) * (320 * 240))
+        _, remark = self.estimated(self.file("det.txt", ""), self.path("flat"))
+        self.assertEqual(remark, "camera motion: not estimated in 9 of 9 frames "
+                                 "(too few corners in the background: 9)\n")
 
 
 class Mistakes(Case):
@@ -392,6 +468,9 @@ class Mistakes(Case):
             ("--set a: expected KEY=VALUE", (*base, "--set", "a")),
             ("--seed needs a value", (*base, "--seed")),
             ("--detector needs --video or --images", ("--tracker", "gentrack2", "--detector", "hog", "--out", "-")),
+            ("--estimate-camera-motion needs --video or --images", (*base, "--estimate-camera-motion")),
+            ("--estimate-camera-motion and --gmc exclude each other",
+             (*base, "--estimate-camera-motion", "--gmc", "x", "--images", "y")),
             ("drawing needs --video, --images or --size", (*base, "--annotate", self.path("a.avi"))),
         ):
             with self.subTest(arguments=arguments):

@@ -112,22 +112,13 @@ impl AreaRatio {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kalman::CHECKPOINT;
 
     /// The numeric checkpoint of the SORT specification, section 9.
     #[test]
     fn checkpoint() {
-        let seen = [
-            Some([104.0, 201.0, 51.0, 102.0]),
-            Some([109.0, 203.0, 50.0, 101.0]),
-            Some([113.0, 204.0, 52.0, 103.0]),
-            None,
-            None,
-            Some([130.0, 209.0, 53.0, 104.0]),
-            Some([134.0, 210.0, 53.0, 105.0]),
-            Some([138.5, 211.0, 53.0, 105.5]),
-        ];
-        let measured = |[l, t, w, h]: [f64; 4]| Measurement::of(&Rect::new(l, t, w, h), 0.0);
-        let mut filter = AreaRatio::new(&measured([100.0, 200.0, 50.0, 100.0]));
+        let measured = |rect: &Rect| Measurement::of(rect, 0.0);
+        let mut filter = AreaRatio::new(&measured(&CHECKPOINT[0].unwrap()));
         let expected: [(usize, [f64; 12]); 5] = [
             (
                 2,
@@ -216,7 +207,7 @@ mod tests {
             ),
         ];
         let mut checked = 0;
-        for (frame, seen) in (2..).zip(seen) {
+        for (frame, seen) in (2..).zip(&CHECKPOINT[1..]) {
             filter.clamp_area(1.0);
             filter.predict(1.0);
             if let Some(seen) = seen {

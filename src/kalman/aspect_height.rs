@@ -101,23 +101,12 @@ fn square(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kalman::CHECKPOINT;
 
     /// The numeric checkpoint of the DeepSORT specification, section 10.
     #[test]
     fn checkpoint() {
-        let seen = [
-            Some([100.0, 200.0, 50.0, 100.0]),
-            Some([104.0, 201.0, 51.0, 102.0]),
-            Some([109.0, 203.0, 50.0, 101.0]),
-            Some([113.0, 204.0, 52.0, 103.0]),
-            None,
-            None,
-            Some([130.0, 209.0, 53.0, 104.0]),
-            Some([134.0, 210.0, 53.0, 105.0]),
-            Some([138.5, 211.0, 53.0, 105.5]),
-        ];
-        let rect = |[l, t, w, h]: [f64; 4]| Rect::new(l, t, w, h);
-        let mut filter = AspectHeight::new(&rect(seen[0].unwrap()));
+        let mut filter = AspectHeight::new(&CHECKPOINT[0].unwrap());
         let check = |when: &str, filter: &AspectHeight| {
             let expected = match when {
                 "2 predicted" => [125.0, 250.0, 0.5, 100.0, 0.0, 0.0, 0.0, 164.0625, 0.0002, 39.453125],
@@ -149,14 +138,14 @@ mod tests {
                 assert!((e - x).abs() < 2e-6, "frame {when}: {found:?} instead of {expected:?}");
             }
         };
-        for (frame, seen) in (2..).zip(&seen[1..]) {
+        for (frame, seen) in (2..).zip(&CHECKPOINT[1..]) {
             filter.predict(1.0);
             check(&format!("{frame} predicted"), &filter);
             if let Some(seen) = seen {
                 if frame == 7 {
-                    assert!((filter.gating_distance(&rect(*seen)) - 0.289502).abs() < 1e-6);
+                    assert!((filter.gating_distance(seen) - 0.289502).abs() < 1e-6);
                 }
-                filter.correct(&rect(*seen));
+                filter.correct(seen);
                 check(&format!("{frame}"), &filter);
             }
         }

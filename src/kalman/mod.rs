@@ -66,3 +66,17 @@ pub trait BoxFilter: Clone + Send {
 pub fn is_sane(s: &State) -> bool {
     [s.u, s.v, s.w, s.h].iter().all(|x| x.abs() <= LARGEST)
 }
+
+/// The boxes of the specifications' numeric checkpoints, frames 1 to 9; nothing is seen in frames 5 and 6.
+#[cfg(test)]
+const CHECKPOINT: [Option<Rect>; 9] = [
+    Some(Rect::new(100.0, 200.0, 50.0, 100.0)),
+    Some(Rect::new(104.0, 201.0, 51.0, 102.0)),
+    Some(Rect::new(109.0, 203.0, 50.0, 101.0)),
+    Some(Rect::new(113.0, 204.0, 52.0, 103.0)),
+    None,
+    None,
+    Some(Rect::new(130.0, 209.0, 53.0, 104.0)),
+    Some(Rect::new(134.0, 210.0, 53.0, 105.0)),
+    Some(Rect::new(138.5, 211.0, 53.0, 105.5)),
+];

@@ -15,6 +15,9 @@ use crate::tracker::StepContext;
 parameters! {
     /// Parameters of SORT.
     pub struct SortParameters {
+        /// Detections of a lower score are ignored. The publication leaves this to its user: give 0.6 or so where the
+        /// detector reports weak ones, too.
+        min_score: f64 = 0.0, [0.0, 1.0], "", "";
         /// Frames without a match that a track survives.
         max_age: i64 = 1, [0, 1_000_000], "frames", "";
         /// Matches in a row, the birth not counted, from which a track is reported; also the number of first frames in
@@ -78,16 +81,17 @@ impl Sort {
     }
 
     fn associate(&mut self, frame: &Frame<'_>, context: &StepContext<'_>) {
-        let Self { tracks, rows, association, .. } = self;
+        let Self { parameters: p, tracks, rows, association } = self;
         let detection = |row: u32| &frame.detections[row as usize];
+        let usable = |d: &Detection| d.rect.height >= SMALLEST && d.score >= p.min_score;
         rows.clear();
-        rows.extend(frame.detections.iter().zip(0..).filter(|(d, _)| d.rect.height >= SMALLEST).map(|(_, row)| row));
+        rows.extend(frame.detections.iter().zip(0..).filter(|(d, _)| usable(d)).map(|(_, row)| row));
         let allowed = |d: u32, t: u32| {
             let class = tracks[t as usize].life.last.class_id;
             context.classes.allows(class, detection(rows[d as usize]).class_id)
         };
         let boxes = tracks.iter().map(|t| Rect::from(t.filter.state()));
-        association.begin(rows.iter().map(|r| detection(*r).rect), boxes, self.parameters.iou_threshold, allowed);
+        association.begin(rows.iter().map(|r| detection(*r).rect), boxes, p.iou_threshold, allowed);
         if !association.match_unambiguous() {
             association.best_overlap();
         }

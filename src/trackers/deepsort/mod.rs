@@ -246,8 +246,8 @@ impl TrackingAlgorithm for DeepSort {
             let work = &mut self.work;
             work.embeddings.fill(frame.embeddings.as_ref(), frame.detections.len());
             work.rows.clear();
-            let usable = (0..).zip(frame.detections).filter(|(_, d)| d.rect.height >= SMALLEST);
-            work.rows.extend(usable.map(|(row, _)| row));
+            let usable = |d: &Detection| d.rect.height >= SMALLEST && d.score >= self.parameters.min_score;
+            work.rows.extend((0..).zip(frame.detections).filter(|(_, d)| usable(d)).map(|(row, _)| row));
             self.cascade(frame, context);
             self.overlap_round(frame, context);
             self.start_tracks(frame, context);

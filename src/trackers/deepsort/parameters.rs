@@ -7,6 +7,9 @@ use crate::trackers::TrackingAlgorithm;
 parameters! {
     /// Parameters of DeepSORT.
     pub struct DeepSortParameters {
+        /// Detections of a lower score are ignored. The publication leaves this to its user: give 0.6 or so where the
+        /// detector reports weak ones, too.
+        min_score: f64 = 0.0, [0.0, 1.0], "", "";
         /// Largest 1 - cosine of a detection's embedding and the most similar one in the track's gallery. Where there
         /// is nothing to compare, pairs within the gate are matched by their Mahalanobis distance.
         max_cosine_distance: f64 = 0.2, [0.0, 2.0], "", "";

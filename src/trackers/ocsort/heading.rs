@@ -1,4 +1,4 @@
-//! Directions of motion between observations (`specs`: OC-SORT section 8).
+//! Directions of motion between observations (specifications: OC-SORT section 8).
 
 use std::f64::consts::{FRAC_PI_2, PI};
 

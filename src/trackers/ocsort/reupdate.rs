@@ -1,4 +1,4 @@
-//! Observation-centric re-update (`specs`: OC-SORT section 6): a track found again goes back to where it was lost and
+//! Observation-centric re-update (specifications: OC-SORT section 6): a track found again goes back to where it was lost and
 //! relives the gap along a straight line between the two observations.
 
 use crate::frame::CameraMotion;

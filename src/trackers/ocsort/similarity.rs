@@ -1,4 +1,4 @@
-//! How alike boxes are in the rounds after the first (`specs`: OC-SORT section 2, `asso_func`).
+//! How alike boxes are in the rounds after the first (specifications: OC-SORT section 2, `asso_func`).
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! Association over all pairs, the bad ones dropped afterwards (`specs`: SORT section 7, OC-SORT section 8).
+//! Association over all pairs, the bad ones dropped afterwards (specifications: SORT section 7, OC-SORT section 8).
 //!
 //! The optimum is that of the sum over *all* pairs, also those that overlap too little or not at all, with the whole
 //! smaller side assigned. Where the value of a pair is its IoU, pairs that do not overlap add nothing, so the best set

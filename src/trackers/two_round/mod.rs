@@ -1,5 +1,5 @@
 //! Association in rounds, detections of a high score first: what ByteTrack, BoT-SORT and SMILEtrack have in common
-//! (`specs`: ByteTrack sections 4-6, BoT-SORT 4-7, SMILEtrack 3-6).
+//! (specifications: ByteTrack sections 4-6, BoT-SORT 4-7, SMILEtrack 3-6).
 //!
 //! | round | tracks | detections | cost |
 //! |---|---|---|---|
@@ -129,18 +129,11 @@ impl<F: BoxFilter> TwoRound<F> {
 
     /// Those whose box is none any more end, which only absurd numbers bring about.
     fn end_the_insane(&mut self, output: &mut Output) {
-        let (work, tracked) = (&mut self.work, &mut self.tracked);
-        let mut index = 0;
-        let was_tracked = *tracked;
-        for member in self.members.extract_if(.., |m| {
-            index += 1;
-            let insane = !is_sane(&m.filter.state());
-            *tracked -= usize::from(insane && index <= was_tracked);
-            insane
-        }) {
+        for member in self.members.extract_if(.., |m| !is_sane(&m.filter.state())) {
             output.ended.push(member.life.id);
-            work.retire(member);
+            self.work.retire(member);
         }
+        self.tracked = self.members.iter().filter(|m| m.fate == Fate::Tracked).count();
     }
 
     fn split_by_score(&mut self, frame: &Frame<'_>) {
@@ -278,8 +271,6 @@ impl<F: BoxFilter> TwoRound<F> {
         for &index in &work.duplicates {
             self.members[index as usize].fate = Fate::Gone;
         }
-        let removed_tracked = self.members[..self.tracked].iter().filter(|m| m.fate == Fate::Gone).count();
-        self.tracked -= removed_tracked;
         for member in self.members.extract_if(.., |m| m.fate == Fate::Gone) {
             // Nobody has heard of one that goes in the frame of its birth.
             if member.life.frames > 1 {
@@ -287,6 +278,7 @@ impl<F: BoxFilter> TwoRound<F> {
             }
             work.retire(member);
         }
+        self.tracked = self.members.iter().filter(|m| m.fate == Fate::Tracked).count();
     }
 }
 

@@ -7,7 +7,7 @@
 #include "onnx_input.hpp"
 #include "text.hpp"
 
-namespace gt2_mot {
+namespace examples {
 namespace {
 
 constexpr int strides[] = {8, 16, 32};
@@ -109,4 +109,4 @@ private:
 
 std::unique_ptr<Detector> make_onnx_detector(const std::string &path) { return std::make_unique<OnnxDetector>(path); }
 
-}  // namespace gt2_mot
+}  // namespace examples

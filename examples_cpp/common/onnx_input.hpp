@@ -5,9 +5,9 @@
 #include <optional>
 #include <string_view>
 
-namespace gt2_mot {
+namespace examples {
 
 /// Width and height of the model's first input that is not a weight, if the file fixes them.
 std::optional<cv::Size> onnx_input_size(std::string_view model);
 
-}  // namespace gt2_mot
+}  // namespace examples

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-namespace gt2_mot {
+namespace examples {
 
 Progress::Progress(long total) : total_(total), terminal_(isatty(STDERR_FILENO) == 1) {}
 
@@ -29,4 +29,4 @@ void Progress::clear() {
     std::fflush(stderr);
 }
 
-}  // namespace gt2_mot
+}  // namespace examples

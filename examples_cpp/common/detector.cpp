@@ -6,7 +6,7 @@
 
 #include "text.hpp"
 
-namespace gt2_mot {
+namespace examples {
 namespace {
 
 double rounded(double value, double steps) { return std::round(value * steps) / steps; }
@@ -47,4 +47,4 @@ double overlap(const DetectionRow &a, const DetectionRow &b) {
     return common / (a.width * a.height + b.width * b.height - common);
 }
 
-}  // namespace gt2_mot
+}  // namespace examples

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace gt2_mot {
+namespace examples {
 
 /// Writes a video in the best format that this OpenCV can write and most players can play.
 class VideoFile {
@@ -24,13 +24,14 @@ private:
     cv::VideoWriter writer_;
 };
 
-/// Two rows of three frames, each 640 pixels wide.
+/// Six frames on one picture.
 class ContactSheet {
 public:
-    static constexpr int columns = 3, rows = 2;
+    static constexpr int count = 6;
 
-    /// Collects the frames of those numbers.
-    ContactSheet(std::string path, std::vector<long> frames) : path_(std::move(path)), frames_(std::move(frames)) {}
+    /// Collects the frames of those numbers, and sets them in so many columns of tiles of that width.
+    ContactSheet(std::string path, std::vector<long> frames, int columns = 3, int tile_width = 640)
+        : path_(std::move(path)), frames_(std::move(frames)), columns_(columns), tile_width_(tile_width) {}
 
     /// Frame numbers spread evenly over a run of that length.
     static std::vector<long> spread_over(long frames);
@@ -43,7 +44,8 @@ public:
 private:
     std::string path_;
     std::vector<long> frames_;
+    int columns_, tile_width_;
     std::vector<cv::Mat> tiles_;
 };
 
-}  // namespace gt2_mot
+}  // namespace examples

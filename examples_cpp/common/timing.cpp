@@ -5,7 +5,13 @@
 #include <cstdio>
 #include <numeric>
 
-namespace gt2_mot {
+namespace examples {
+
+double StepTimes::mean() const {
+    if (microseconds_.empty()) return 0.0;
+    const double total = std::accumulate(microseconds_.begin(), microseconds_.end(), 0.0);
+    return total / static_cast<double>(microseconds_.size());
+}
 
 std::string StepTimes::summary() const {
     if (microseconds_.empty()) return "steps 0";
@@ -23,4 +29,4 @@ std::string StepTimes::summary() const {
     return line;
 }
 
-}  // namespace gt2_mot
+}  // namespace examples

@@ -1,14 +1,13 @@
 #include "session.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
 
 #include "gentrack2.h"
 #include "gentrack2_opencv.hpp"
 #include "text.hpp"
 
-namespace gt2_mot {
+namespace examples {
 namespace {
 
 struct Release {
@@ -20,21 +19,15 @@ void check(gt2_status status, const std::string &place = "") {
     if (status != GT2_OK) throw UserError(place + gt2_last_error_message());
 }
 
-std::string text_of(double number) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.17g", number);
-    return text;
+void set(gt2_config *config, const Setting &s) {
+    check(gt2_config_set(config, s.key.c_str(), s.value.c_str()), s.place + ": ");
 }
 
-void set(gt2_config *config, const std::string &key, const std::string &value, const std::string &place) {
-    check(gt2_config_set(config, key.c_str(), value.c_str()), place + ": ");
-}
-
-void load(gt2_config *config, const std::string &path, const std::string &tracker) {
+void load(gt2_config *config, const std::string &path, const TrackerSettings &s) {
     const std::string text = read_file(path);
     check(gt2_config_load_toml(config, text.data(), text.size()), path + ": ");
     const std::string algorithm = gt2_config_algorithm(config);
-    if (algorithm != tracker) throw UserError(path + ": is for " + algorithm + ", but --tracker is " + tracker);
+    if (algorithm != s.name) throw UserError(path + ": is for " + algorithm + ", but " + s.option + " is " + s.name);
 }
 
 }  // namespace
@@ -45,15 +38,14 @@ struct Session::Parts {
     std::vector<gt2_detection> detections;
 };
 
-Session::Session(const Options &o, double video_rate) : parts_(std::make_unique<Parts>()) {
+Session::Session(const TrackerSettings &s, double video_rate, const std::string &video)
+    : parts_(std::make_unique<Parts>()) {
     gt2_config *config = nullptr;
-    check(gt2_config_new(o.tracker.c_str(), &config), "--tracker: ");
+    check(gt2_config_new(s.name.c_str(), &config), s.option + ": ");
     parts_->config.reset(config);
-    if (video_rate > 0) set(config, "frame_rate", text_of(video_rate), o.video);
-    if (!o.config.empty()) load(config, o.config, o.tracker);
-    for (const auto &[key, value] : o.set) set(config, key, value, "--set " + key + "=" + value);
-    if (o.seed) set(config, "seed", *o.seed, "--seed");
-    if (o.fps) set(config, "frame_rate", text_of(*o.fps), "--fps");
+    if (video_rate > 0) set(config, {"frame_rate", text_of(video_rate), video});
+    if (!s.config.empty()) load(config, s.config, s);
+    for (const Setting &setting : s.settings) set(config, setting);
     gt2_tracker *tracker = nullptr;
     check(gt2_tracker_new(config, &tracker));
     parts_->tracker.reset(tracker);
@@ -64,14 +56,14 @@ Session::~Session() = default;
 void Session::step(const FrameInput &input, StepTimes &times) {
     auto &detections = parts_->detections;
     detections.clear();
-    for (const DetectionRow &r : input.rows->detections) {
+    for (const DetectionRow &r : input.rows.detections) {
         detections.push_back(gentrack2::detection(cv::Rect2d(r.left, r.top, r.width, r.height), r.score));
     }
     gt2_frame frame = GT2_FRAME_INIT;
     frame.detections = detections.data();
     frame.detection_count = detections.size();
-    if (!input.rows->embeddings.empty()) {
-        frame.embeddings = input.rows->embeddings.data();
+    if (!input.rows.embeddings.empty()) {
+        frame.embeddings = input.rows.embeddings.data();
         frame.embedding_dimension = static_cast<std::size_t>(input.dimension);
     }
     gt2_image image = GT2_IMAGE_INIT;
@@ -87,7 +79,7 @@ void Session::step(const FrameInput &input, StepTimes &times) {
     const auto start = StepTimes::Clock::now();
     const gt2_status status = gt2_tracker_step(parts_->tracker.get(), &frame);
     times.add(StepTimes::Clock::now() - start);
-    check(status);
+    check(status, "frame " + std::to_string(input.frame) + ": ");
 }
 
 std::vector<TrackedObject> Session::tracks(bool all) const {
@@ -122,4 +114,4 @@ double Session::frame_rate() const {
     return rate;
 }
 
-}  // namespace gt2_mot
+}  // namespace examples

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace gt2_mot {
+namespace examples {
 
 /// A detection: box in pixels, score in [0, 1].
 struct DetectionRow {
@@ -92,4 +92,4 @@ private:
     std::FILE *file_;
 };
 
-}  // namespace gt2_mot
+}  // namespace examples

@@ -6,14 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "options.hpp"
-
-namespace gt2_mot {
+namespace examples {
 
 class FrameSource {
 public:
-    /// Opens what the options name. Throws `UserError` if that does not open.
-    explicit FrameSource(const Options &options);
+    /// Opens a video or a directory; the other is empty, or both. Throws `UserError` if that does not open.
+    FrameSource(const std::string &video, const std::string &images);
 
     /// Whether there are images.
     bool has_images() const { return !name_.empty(); }
@@ -38,4 +36,4 @@ private:
     cv::Size size_;
 };
 
-}  // namespace gt2_mot
+}  // namespace examples

@@ -11,7 +11,7 @@
 
 #include "mot_io.hpp"
 
-namespace gt2_mot {
+namespace examples {
 
 /// How a track is drawn.
 enum class Look {
@@ -37,9 +37,10 @@ struct DrawnTrack {
 
 class Annotator {
 public:
-    /// Draws the tracks of frame number `frame` on `image` (BGR, 8 bits), with a caption and a legend. `motion` is the
-    /// camera's since the previous frame: trails move with the scene.
-    void draw(cv::Mat &image, long frame, const std::vector<DrawnTrack> &tracks, const std::optional<Affine> &motion);
+    /// Draws the tracks of a frame on `image` (BGR, 8 bits), with a caption and a legend. `motion` is the camera's
+    /// since the previous frame: trails move with the scene.
+    void draw(cv::Mat &image, const std::string &caption, const std::vector<DrawnTrack> &tracks,
+              const std::optional<Affine> &motion);
 
 private:
     void remember(const std::vector<DrawnTrack> &tracks, const std::optional<Affine> &motion);
@@ -50,4 +51,4 @@ private:
 /// The colour of an identity, for trail and label; the same in every run, and different for neighbouring ids.
 cv::Scalar identity_colour(std::uint64_t id);
 
-}  // namespace gt2_mot
+}  // namespace examples

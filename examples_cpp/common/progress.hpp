@@ -4,7 +4,7 @@
 #include <chrono>
 #include <string>
 
-namespace gt2_mot {
+namespace examples {
 
 class Progress {
 public:
@@ -24,4 +24,4 @@ private:
     std::chrono::steady_clock::time_point last_{};
 };
 
-}  // namespace gt2_mot
+}  // namespace examples

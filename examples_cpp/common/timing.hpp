@@ -5,13 +5,16 @@
 #include <string>
 #include <vector>
 
-namespace gt2_mot {
+namespace examples {
 
 class StepTimes {
 public:
     using Clock = std::chrono::steady_clock;
 
     void add(Clock::duration step) { microseconds_.push_back(std::chrono::duration<double, std::micro>(step).count()); }
+
+    /// Mean in microseconds, 0 without steps.
+    double mean() const;
 
     /// One line: steps, total in ms; mean, median and 99th percentile in microseconds.
     std::string summary() const;
@@ -20,4 +23,4 @@ private:
     std::vector<double> microseconds_;
 };
 
-}  // namespace gt2_mot
+}  // namespace examples

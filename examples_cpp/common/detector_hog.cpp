@@ -5,7 +5,7 @@
 
 #include "detector.hpp"
 
-namespace gt2_mot {
+namespace examples {
 namespace {
 
 // The numbers below were chosen on a surveillance video with known truth (people 60 to 130 pixels tall in 768x576):
@@ -85,4 +85,4 @@ private:
 
 std::unique_ptr<Detector> make_hog_detector() { return std::make_unique<HogDetector>(); }
 
-}  // namespace gt2_mot
+}  // namespace examples

@@ -7,7 +7,7 @@
 
 #include "text.hpp"
 
-namespace gt2_mot {
+namespace examples {
 namespace {
 
 /// Calls `visit(number, line)` for every line of `text` that is not blank.
@@ -182,4 +182,4 @@ void RowWriter::close() {
     if (failed) throw UserError(path_ + ": cannot be written: " + std::strerror(errno));
 }
 
-}  // namespace gt2_mot
+}  // namespace examples

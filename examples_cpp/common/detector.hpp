@@ -8,7 +8,7 @@
 
 #include "mot_io.hpp"
 
-namespace gt2_mot {
+namespace examples {
 
 /// Finds people in an image.
 class Detector {
@@ -40,4 +40,4 @@ void sort_by_score(std::vector<DetectionRow> &rows);
 /// Intersection over union.
 double overlap(const DetectionRow &a, const DetectionRow &b);
 
-}  // namespace gt2_mot
+}  // namespace examples

@@ -4,7 +4,7 @@
 #include <set>
 #include <vector>
 
-namespace gt2_mot {
+namespace examples {
 namespace {
 
 /// One field of a protocol buffer message: a number or a piece of bytes.
@@ -99,4 +99,4 @@ std::optional<cv::Size> onnx_input_size(std::string_view model) {
     return std::nullopt;
 }
 
-}  // namespace gt2_mot
+}  // namespace examples

@@ -9,7 +9,7 @@
 
 #include "text.hpp"
 
-namespace gt2_mot {
+namespace examples {
 namespace {
 
 std::vector<std::string> image_files(const std::string &directory) {
@@ -29,9 +29,9 @@ std::vector<std::string> image_files(const std::string &directory) {
 
 }  // namespace
 
-FrameSource::FrameSource(const Options &options) : name_(options.video.empty() ? options.images : options.video) {
-    if (!options.images.empty()) files_ = image_files(options.images);
-    if (options.video.empty()) return;
+FrameSource::FrameSource(const std::string &video, const std::string &images) : name_(video.empty() ? images : video) {
+    if (!images.empty()) files_ = image_files(images);
+    if (video.empty()) return;
     // OpenCV also takes addresses and numbered patterns, which are no files.
     const bool is_file = name_.find("://") == std::string::npos && name_.find('%') == std::string::npos;
     if (is_file && !std::filesystem::exists(name_)) throw UserError(name_ + ": no such file");
@@ -64,4 +64,4 @@ bool FrameSource::read(cv::Mat &image) {
     return true;
 }
 
-}  // namespace gt2_mot
+}  // namespace examples

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace gt2_mot {
+namespace examples {
 
 /// A mistake of the user's: `what()` is the one line that goes to stderr.
 struct UserError : std::runtime_error {
@@ -29,7 +29,10 @@ std::optional<double> parse_number(std::string_view text);
 /// A decimal integer that fills the whole of `text`; `1.0` counts, as some tools write frame numbers so.
 std::optional<long long> parse_integer(std::string_view text);
 
+/// A number with all its digits.
+std::string text_of(double number);
+
 /// The whole of a file; a `UserError` if it cannot be read.
 std::string read_file(const std::string &path);
 
-}  // namespace gt2_mot
+}  // namespace examples

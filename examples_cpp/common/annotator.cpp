@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-namespace gt2_mot {
+namespace examples {
 namespace {
 
 const cv::Scalar green(60, 200, 40), red(50, 50, 235), grey(170, 170, 170), white(255, 255, 255), black(0, 0, 0);
@@ -88,9 +88,8 @@ void draw_box(cv::Mat &image, const DrawnTrack &track, double scale) {
     }
 }
 
-void draw_caption(cv::Mat &image, long frame, std::size_t reported, double scale) {
-    const double size = 0.5 * scale;
-    label(image, "frame " + std::to_string(frame) + "   tracks " + std::to_string(reported), {0, 0}, black, size);
+void draw_caption(cv::Mat &image, const std::string &caption, double scale) {
+    label(image, caption, {0, 0}, black, 0.5 * scale);
     int x = 0;
     const std::pair<const char *, cv::Scalar> entries[] = {
         {"strong: detected", green}, {"weak: predicted", red}, {"dashed: lost", red}};
@@ -114,7 +113,7 @@ cv::Scalar identity_colour(std::uint64_t id) {
     return {channel(1.0), channel(3.0), channel(5.0)};
 }
 
-void Annotator::draw(cv::Mat &image, long frame, const std::vector<DrawnTrack> &tracks,
+void Annotator::draw(cv::Mat &image, const std::string &caption, const std::vector<DrawnTrack> &tracks,
                      const std::optional<Affine> &motion) {
     remember(tracks, motion);
     const double scale = scale_of(image);
@@ -124,16 +123,14 @@ void Annotator::draw(cv::Mat &image, long frame, const std::vector<DrawnTrack> &
     for (const DrawnTrack &track : tracks) draw_particles(image, track);
     for (const DrawnTrack &track : tracks) draw_box(image, track, scale);
     // Labels last, so that no box crosses them out.
-    std::size_t reported = 0;
     for (const DrawnTrack &track : tracks) {
-        if (track.look == Look::strong || track.look == Look::weak) ++reported;
         if (track.look == Look::tentative) continue;
         const cv::Rect2d inside = track.box & cv::Rect2d(0, 0, image.cols, image.rows);
         if (inside.area() <= 0) continue;
         const cv::Point corner(static_cast<int>(std::lround(track.box.x)), static_cast<int>(std::lround(track.box.y)));
         label(image, std::to_string(track.id), corner, identity_colour(track.id), 0.5 * scale);
     }
-    draw_caption(image, frame, reported, scale);
+    draw_caption(image, caption, scale);
 }
 
 void Annotator::remember(const std::vector<DrawnTrack> &tracks, const std::optional<Affine> &motion) {
@@ -151,4 +148,4 @@ void Annotator::remember(const std::vector<DrawnTrack> &tracks, const std::optio
     trails_ = std::move(next);
 }
 
-}  // namespace gt2_mot
+}  // namespace examples

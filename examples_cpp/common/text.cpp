@@ -3,12 +3,13 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
-namespace gt2_mot {
+namespace examples {
 namespace {
 
 constexpr std::string_view blanks = " \t\r\n";
@@ -59,6 +60,12 @@ std::optional<long long> parse_integer(std::string_view text) {
     return static_cast<long long>(*value);
 }
 
+std::string text_of(double number) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.17g", number);
+    return text;
+}
+
 std::string read_file(const std::string &path) {
     // A directory opens as a stream and then reads as empty.
     if (std::filesystem::is_directory(path)) throw UserError(path + ": is a directory");
@@ -71,4 +78,4 @@ std::string read_file(const std::string &path) {
     return std::move(text).str();
 }
 
-}  // namespace gt2_mot
+}  // namespace examples

@@ -1,28 +1,31 @@
-// The tracker as this program uses it: the only file that calls gentrack2.
+// The tracker as the programs use it: the only file that calls gentrack2.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <opencv2/core.hpp>
-#include <optional>
+#include <string>
 #include <vector>
 
+#include "frame_input.hpp"
 #include "mot_io.hpp"
-#include "options.hpp"
 #include "timing.hpp"
 
-namespace gt2_mot {
+namespace examples {
 
-/// What is known about one frame.
-struct FrameInput {
-    const FrameRows *rows = nullptr;
-    /// Numbers per embedding, 0 without.
-    int dimension = 0;
-    /// BGR; empty without images.
-    cv::Mat image;
-    /// Size without images, if known.
-    std::optional<cv::Size> size;
-    std::optional<Affine> motion;
+/// A parameter, and what set it, for messages.
+struct Setting {
+    std::string key, value, place;
+};
+
+/// Which tracker, and how it is set up: the frame rate of the video first, then the file, then the settings in order.
+struct TrackerSettings {
+    std::string name;
+    /// The option that named it, for messages.
+    std::string option;
+    /// A TOML file of parameters; empty for none.
+    std::string config;
+    std::vector<Setting> settings;
 };
 
 enum class TrackState { tentative, confirmed, lost };
@@ -39,11 +42,11 @@ struct TrackedObject {
 
 class Session {
 public:
-    /// A tracker with the settings of the options. `video_rate` is the video's, 0 if unknown. Throws `UserError`.
-    Session(const Options &options, double video_rate);
+    /// `video_rate` is the frame rate of the video of that name, 0 if unknown. Throws `UserError`.
+    Session(const TrackerSettings &settings, double video_rate, const std::string &video);
     ~Session();
 
-    /// Hands the tracker one frame and adds the time that took.
+    /// Hands the tracker one frame and adds the time that took. Throws `UserError` with the number of the frame.
     void step(const FrameInput &frame, StepTimes &times);
 
     /// The tracks after the last step: the reported ones, and with `all` also those only kept.
@@ -60,4 +63,4 @@ private:
     std::unique_ptr<Parts> parts_;
 };
 
-}  // namespace gt2_mot
+}  // namespace examples

@@ -6,10 +6,10 @@
 
 #include "text.hpp"
 
-namespace gt2_mot {
+namespace examples {
 namespace {
 
-constexpr int tile_width = 640, gap = 6;
+constexpr int gap = 6;
 
 }  // namespace
 
@@ -36,29 +36,28 @@ void VideoFile::add(const cv::Mat &image) {
 }
 
 std::vector<long> ContactSheet::spread_over(long frames) {
-    constexpr long count = columns * rows;
     std::vector<long> numbers;
-    for (long i = 0; i < count; ++i) numbers.push_back(std::max(1L, (2 * i + 1) * frames / (2 * count)));
+    for (long i = 0; i < count; ++i) numbers.push_back(std::max(1L, (2 * i + 1) * frames / (2L * count)));
     return numbers;
 }
 
 void ContactSheet::add(long frame, const cv::Mat &image) {
     if (std::find(frames_.begin(), frames_.end(), frame) == frames_.end()) return;
-    if (tiles_.size() == static_cast<std::size_t>(columns * rows)) return;
+    if (tiles_.size() == static_cast<std::size_t>(count)) return;
     cv::Mat tile;
-    const double zoom = static_cast<double>(tile_width) / image.cols;
-    cv::resize(image, tile, {tile_width, std::max(1, static_cast<int>(image.rows * zoom))}, 0, 0, cv::INTER_AREA);
+    const double zoom = static_cast<double>(tile_width_) / image.cols;
+    cv::resize(image, tile, {tile_width_, std::max(1, static_cast<int>(image.rows * zoom))}, 0, 0, cv::INTER_AREA);
     tiles_.push_back(tile);
 }
 
 void ContactSheet::write() const {
     if (tiles_.empty()) throw UserError(path_ + ": none of the frames for the contact sheet was reached");
-    const int height = tiles_.front().rows;
-    cv::Mat sheet(rows * height + (rows + 1) * gap, columns * tile_width + (columns + 1) * gap, CV_8UC3,
+    const int height = tiles_.front().rows, rows = (count + columns_ - 1) / columns_;
+    cv::Mat sheet(rows * height + (rows + 1) * gap, columns_ * tile_width_ + (columns_ + 1) * gap, CV_8UC3,
                   cv::Scalar::all(255));
     for (std::size_t i = 0; i < tiles_.size(); ++i) {
-        const int column = static_cast<int>(i) % columns, row = static_cast<int>(i) / columns;
-        const cv::Rect place(gap + column * (tile_width + gap), gap + row * (height + gap), tile_width, height);
+        const int column = static_cast<int>(i) % columns_, row = static_cast<int>(i) / columns_;
+        const cv::Rect place(gap + column * (tile_width_ + gap), gap + row * (height + gap), tile_width_, height);
         tiles_[i].copyTo(sheet(place));
     }
     bool written = false;
@@ -70,4 +69,4 @@ void ContactSheet::write() const {
     if (!written) throw UserError(path_ + ": OpenCV cannot write this picture (.png is usual)");
 }
 
-}  // namespace gt2_mot
+}  // namespace examples
