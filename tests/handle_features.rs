@@ -60,27 +60,6 @@ fn a_track_without_a_detection_in_this_frame_keeps_what_it_had() {
     });
 }
 
-/// Watches births and ends.
-#[derive(Default)]
-struct Register {
-    live: BTreeSet<u64>,
-    ended: BTreeSet<u64>,
-}
-
-impl Register {
-    fn check(&mut self, name: &str, output: &Output) {
-        let now: BTreeSet<u64> = live(output).map(|t| t.id).collect();
-        assert_eq!(now.len(), live(output).count(), "{name}: a track is in two lists");
-        assert!(now.is_disjoint(&self.ended), "{name}: a track is back after its end");
-        let gone: BTreeSet<u64> = self.live.difference(&now).copied().collect();
-        let named: BTreeSet<u64> = output.ended.iter().copied().collect();
-        assert_eq!(named.len(), output.ended.len(), "{name}: an end is named twice");
-        assert_eq!(named, gone, "{name}: ends that were named and those that happened");
-        self.ended.extend(named);
-        self.live = now;
-    }
-}
-
 #[test]
 fn an_end_is_named_once_and_when_it_happens() {
     for_all(|algorithm, name| {

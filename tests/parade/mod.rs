@@ -4,7 +4,7 @@
 // Each test binary uses its own part of this module.
 #![allow(dead_code)]
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use gentrack2::{Algorithm, Config, Detection, Frame, Output, Rect, Track, Tracker};
 
@@ -125,6 +125,28 @@ pub fn nearest<'a>(output: &'a Output, rect: &Rect) -> Option<&'a Track> {
 pub fn distance(a: &Rect, b: &Rect) -> f64 {
     let along = |a0: f64, a1: f64, b0: f64, b1: f64| 0.5 * (a0 + a1 - b0 - b1);
     along(a.left, a.right(), b.left, b.right()).hypot(along(a.top, a.bottom(), b.top, b.bottom()))
+}
+
+/// Watches births and ends.
+#[derive(Default)]
+pub struct Register {
+    pub live: BTreeSet<u64>,
+    pub ended: BTreeSet<u64>,
+}
+
+impl Register {
+    /// Every track in one list, and every end named once, when it happens.
+    pub fn check(&mut self, name: &str, output: &Output) {
+        let now: BTreeSet<u64> = live(output).map(|t| t.id).collect();
+        assert_eq!(now.len(), live(output).count(), "{name}: a track is in two lists");
+        assert!(now.is_disjoint(&self.ended), "{name}: a track is back after its end");
+        let gone: BTreeSet<u64> = self.live.difference(&now).copied().collect();
+        let named: BTreeSet<u64> = output.ended.iter().copied().collect();
+        assert_eq!(named.len(), output.ended.len(), "{name}: an end is named twice");
+        assert_eq!(named, gone, "{name}: ends that were named and those that happened");
+        self.ended.extend(named);
+        self.live = now;
+    }
 }
 
 /// A renaming of identities, one to one.
