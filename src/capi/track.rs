@@ -11,7 +11,8 @@ pub const GT2_TRACK_CONFIRMED: i32 = 2;
 pub const GT2_TRACK_LOST: i32 = 3;
 
 /// Kind of list: what the tracker stands for in this frame, what a user draws or writes to a file: matched tracks,
-/// and lost ones whose predicted box is trusted.
+/// and lost ones whose predicted box is trusted. Some publications have tentative ones among them: botsort and
+/// smiletrack all, conftrack those of the first frame.
 pub const GT2_TRACKS_REPORTED: i32 = 0;
 /// Kind of list: tracks too young to be reported.
 pub const GT2_TRACKS_TENTATIVE: i32 = 1;
