@@ -35,6 +35,15 @@
  * Step every frame of the video, those without detections too: that nothing was detected is information. If the
  * detector did not run on a frame, step it with detector_skipped = 1.
  *
+ * ALGORITHMS
+ *
+ * gt2_config_new takes the name of one: gentrack2, or one of those it is compared with, sort, deepsort, bytetrack,
+ * botsort, ocsort, smiletrack, conftrack, which do what their published programs do. gt2_algorithm_count and
+ * gt2_algorithm_name list them, gt2_config_parameter_info their parameters. What a frame brings beside detections is
+ * used by those that can: the image by gentrack2, embeddings by gentrack2, deepsort, botsort, smiletrack and conftrack,
+ * camera motion by gentrack2, botsort, smiletrack and conftrack, and by the others with use_camera_motion. Timestamps,
+ * detector_skipped and the parameter class_policy work with all of them.
+ *
  * RULES THAT HOLD EVERYWHERE
  *
  * Errors. Functions that can fail return a gt2_status: GT2_OK (0) or a negative GT2_ERR_...; gt2_last_error_message
@@ -200,11 +209,12 @@
 #define GT2_TRACK_LOST 3
 
 /// Kind of list: what the tracker stands for in this frame, what a user draws or writes to a file: matched tracks,
-/// and lost ones whose predicted box is trusted. Some publications have tentative ones among them: botsort and
-/// smiletrack all, conftrack those of the first frame.
+/// and lost ones whose predicted box is trusted. Some of the compared trackers report new tracks at once, which then
+/// are in this list with the state `GT2_TRACK_TENTATIVE`: botsort and smiletrack always, conftrack in the first frame.
 #define GT2_TRACKS_REPORTED 0
 
-/// Kind of list: tracks too young to be reported.
+/// Kind of list: tracks too young to be reported; with sort and ocsort also those seen again after a miss until they
+/// have been seen often enough in a row.
 #define GT2_TRACKS_TENTATIVE 1
 
 /// Kind of list: live tracks without a detection that are not reported, with their predicted box.

@@ -14,7 +14,7 @@
 //! # Ok::<(), gentrack2::Error>(())
 //! ```
 //!
-//! The same library has a C ABI; `include/gentrack2.h` is its manual.
+//! [`Algorithm`] lists the algorithms: GenTrack2 and the seven it is compared with. The same library has a C ABI; `include/gentrack2.h` is its manual.
 
 pub mod appearance;
 pub mod assignment;

@@ -11,10 +11,11 @@ pub const GT2_TRACK_CONFIRMED: i32 = 2;
 pub const GT2_TRACK_LOST: i32 = 3;
 
 /// Kind of list: what the tracker stands for in this frame, what a user draws or writes to a file: matched tracks,
-/// and lost ones whose predicted box is trusted. Some publications have tentative ones among them: botsort and
-/// smiletrack all, conftrack those of the first frame.
+/// and lost ones whose predicted box is trusted. Some of the compared trackers report new tracks at once, which then
+/// are in this list with the state `GT2_TRACK_TENTATIVE`: botsort and smiletrack always, conftrack in the first frame.
 pub const GT2_TRACKS_REPORTED: i32 = 0;
-/// Kind of list: tracks too young to be reported.
+/// Kind of list: tracks too young to be reported; with sort and ocsort also those seen again after a miss until they
+/// have been seen often enough in a row.
 pub const GT2_TRACKS_TENTATIVE: i32 = 1;
 /// Kind of list: live tracks without a detection that are not reported, with their predicted box.
 pub const GT2_TRACKS_LOST: i32 = 2;
