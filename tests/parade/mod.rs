@@ -4,6 +4,8 @@
 // Each test binary uses its own part of this module.
 #![allow(dead_code)]
 
+pub mod crowd;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use gentrack2::{Algorithm, Config, Detection, Frame, Output, Rect, Track, Tracker};
