@@ -5,7 +5,8 @@ mod simulator;
 
 use std::time::{Duration, Instant};
 
-use gentrack2::{Algorithm, CameraMotion, Detection, Embeddings, Frame, ImageView, PixelFormat, Rect, Tracker};
+use gentrack2::parameters::{Kind, Value};
+use gentrack2::{Algorithm, CameraMotion, Config, Detection, Embeddings, Frame, ImageView, PixelFormat, Rect, Tracker};
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use simulator::contract::{Contract, all_tracks};
@@ -716,6 +717,26 @@ fn refused_without_trace_or_handled(watched: &mut Watched, frames: &[AnyFrame]) 
     Ok(())
 }
 
+/// A configuration with some parameters at an end of their range; `None` if they do not go together.
+fn extreme(algorithm: Algorithm, choices: &[u8]) -> Option<Tracker> {
+    let mut config = Config::of(algorithm);
+    for (spec, choice) in Config::of(algorithm).specs().zip(choices.iter().cycle()) {
+        let value = match (spec.kind, choice) {
+            // Ten million particles are just slow.
+            _ if spec.key == "particles" => continue,
+            (Kind::Float, 0) => Value::Float(spec.minimum),
+            (Kind::Float, 1) => Value::Float(spec.maximum),
+            (Kind::Integer, 0) => Value::Integer(spec.minimum as i64),
+            (Kind::Integer, 1) => Value::Integer(spec.maximum as i64),
+            (Kind::Boolean, 0..=2) => Value::Boolean(spec.default != Value::Boolean(true)),
+            (Kind::Choice(names), 0..=3) => Value::Choice(names[*choice as usize % names.len()]),
+            _ => continue,
+        };
+        config.set(spec.key, &value).unwrap();
+    }
+    Tracker::new(&config).ok()
+}
+
 for_every_algorithm! {
     fn any_sequence_of_frames_is_refused_without_trace_or_handled(algorithm: Algorithm) {
         let frames = proptest::collection::vec(any_frame(), 1..25);
@@ -724,6 +745,18 @@ for_every_algorithm! {
         let outcome = runner.run(&(frames, any::<u32>(), class_policy), |(frames, seed, class_policy)| {
             let (seed, class_policy) = (("seed", &*seed.to_string()), ("class_policy", class_policy));
             let mut watched = Watched::with(algorithm, &[seed, class_policy, ("use_camera_motion", "true")]);
+            refused_without_trace_or_handled(&mut watched, &frames)
+        });
+        outcome.unwrap_or_else(|error| panic!("{error}"));
+    }
+
+    fn whatever_the_parameters(algorithm: Algorithm) {
+        let frames = proptest::collection::vec(any_frame(), 1..25);
+        let choices = proptest::collection::vec(0u8..10, 64);
+        let mut runner = TestRunner::new(ProptestConfig::with_cases(96));
+        let outcome = runner.run(&(frames, choices), |(frames, choices)| {
+            let Some(tracker) = extreme(algorithm, &choices) else { return Ok(()) };
+            let mut watched = Watched { tracker, contract: Contract::of(algorithm) };
             refused_without_trace_or_handled(&mut watched, &frames)
         });
         outcome.unwrap_or_else(|error| panic!("{error}"));
