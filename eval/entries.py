@@ -1,0 +1,43 @@
+"""The rows of the table: a tracker with settings."""
+import dataclasses
+
+TRACKERS = ["gentrack2", "sort", "deepsort", "bytetrack", "ocsort", "botsort", "smiletrack", "conftrack"]
+# The only one that draws random numbers.
+RANDOM = "gentrack2"
+DEFAULT = ["gentrack2", "paper", *TRACKERS[1:]]
+# They leave it to their user to drop weak detections.
+NEED_MIN_SCORE = ("sort", "deepsort")
+# One frame of memory is for higher frame rates than any here.
+SETTINGS = {"sort": ["max_age=30"]}
+
+
+@dataclasses.dataclass
+class Entry:
+    name: str
+    tracker: str
+    settings: list
+
+    def all_settings(self, setup):
+        """Those of a set-up, later ones win."""
+        least = [f"min_score={setup.min_score:g}"] if self.tracker in NEED_MIN_SCORE else []
+        return SETTINGS.get(self.tracker, []) + least + self.settings
+
+
+def parse(text):
+    """Entries of a list: a tracker, `paper`, or NAME=TRACKER:KEY=VALUE,KEY=VALUE."""
+    entries = []
+    for piece in filter(None, text.split(",")):
+        name, equals, rest = piece.partition("=")
+        tracker, colon, setting = rest.partition(":")
+        if not equals and piece in TRACKERS:
+            entries.append(Entry(piece, piece, []))
+        elif piece == "paper":
+            entries.append(Entry("paper", "gentrack2", ["preset=paper"]))
+        elif equals and tracker in TRACKERS:
+            entries.append(Entry(name, tracker, [setting] if setting else []))
+        elif equals and entries and entries[-1].name not in DEFAULT:
+            entries[-1].settings.append(piece)
+        else:
+            raise ValueError(f"unknown entry {piece}; an entry is one of {' '.join(DEFAULT)} or "
+                             "NAME=TRACKER:KEY=VALUE,KEY=VALUE")
+    return entries
