@@ -5,8 +5,6 @@ twister, seeded with strings, a stream of its own for each purpose and person.
 """
 import random
 
-import numpy
-
 # The classes of MOT17 that are people in full view: pedestrians, and those who stand still.
 PEOPLE = (1, 7)
 
@@ -34,17 +32,18 @@ def by_frame(rows):
     return frames
 
 
-def boxes(rows):
-    return numpy.array([[float(value) for value in row[2:6]] for row in rows]).reshape(-1, 4)
+def box_of(row):
+    """Left, top, width, height."""
+    return tuple(float(value) for value in row[2:6])
 
 
 def iou(a, b):
-    """Intersection over union of left, top, width, height rows: a matrix."""
-    low = numpy.maximum(a[:, None, :2], b[None, :, :2])
-    high = numpy.minimum(a[:, None, :2] + a[:, None, 2:], b[None, :, :2] + b[None, :, 2:])
-    common = numpy.prod(numpy.clip(high - low, 0, None), axis=2)
-    union = numpy.prod(a[:, 2:], axis=1)[:, None] + numpy.prod(b[:, 2:], axis=1)[None, :] - common
-    return common / numpy.maximum(union, 1e-12)
+    """Intersection over union of two boxes."""
+    width = min(a[0] + a[2], b[0] + b[2]) - max(a[0], b[0])
+    height = min(a[1] + a[3], b[1] + b[3]) - max(a[1], b[1])
+    if width <= 0 or height <= 0:
+        return 0.0
+    return width * height / (a[2] * a[3] + b[2] * b[3] - width * height)
 
 
 # What the worse detector does, see degrade().
@@ -85,18 +84,18 @@ def degrade(detections, ground_truth, width, height, frames, seed):
     jitter = random.Random(f"{seed}/jitter")
     kept = []
     for frame in sorted(found):
-        rows, persons = found[frame], people.get(frame, [])
-        overlap = iou(boxes(rows), boxes(persons)) if persons else numpy.zeros((len(rows), 1))
-        for row, overlaps in zip(rows, overlap):
+        persons = [(box_of(row), row) for row in people.get(frame, [])]
+        for row in found[frame]:
+            box = box_of(row)
             # Drawn for all, so that what happens to one box does not change the noise of the others.
             noise = [jitter.gauss(0, JITTER) for _ in range(4)]
-            best = int(overlaps.argmax())
-            if overlaps[best] >= LEAST_IOU:
-                person = persons[best]
+            overlap, person = max(((iou(box, other), person) for other, person in persons), key=lambda pair: pair[0],
+                                  default=(0.0, None))
+            if overlap >= LEAST_IOU:
                 visibility = float(person[8]) if len(person) > 8 else 1.0
                 if missed[int(float(person[1]))][frame] or visibility < LEAST_VISIBILITY:
                     continue
-            left, top, w, h = (float(value) for value in row[2:6])
+            left, top, w, h = box
             centre = left + w / 2 + noise[0] * w, top + h / 2 + noise[1] * h
             w, h = max(1.0, w * (1 + noise[2])), max(1.0, h * (1 + noise[3]))
             kept.append((frame, [centre[0] - w / 2, centre[1] - h / 2, w, h], row[6]))
@@ -126,16 +125,22 @@ def subsampled_length(frames, step):
     return (frames - 1) // step + 1
 
 
+def after(second, first):
+    """The 2x3 affine map, row by row, that does first one and then the other."""
+    a, b, c, d, e, f = second
+    p, q, r, s, t, u = first
+    return [a * p + b * s, a * q + b * t, a * r + b * u + c, d * p + e * s, d * q + e * t, d * r + e * u + f]
+
+
 def compose_motion(path, step):
     """Camera motion between every step-th frame: rows of strings. Lines of the file are frames, from the first on;
     each maps the frame before to its own."""
     with open(path) as file:
-        lines = [[float(value) for value in line.replace(",", " ").split()[1:7]] for line in file if line.strip()]
-    maps = [numpy.vstack([numpy.reshape(line, (2, 3)), [0, 0, 1]]) for line in lines]
+        maps = [[float(value) for value in line.replace(",", " ").split()[1:7]] for line in file if line.strip()]
     rows = []
     for kept in range(0, len(maps), step):
-        total = numpy.eye(3)
+        total = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0]
         for skipped in range(max(1, kept - step + 1), kept + 1):
-            total = maps[skipped] @ total
-        rows.append([str(kept // step), *(repr(float(value)) for value in total[:2].ravel())])
+            total = after(maps[skipped], total)
+        rows.append([str(kept // step), *(repr(value) for value in total)])
     return rows

@@ -16,8 +16,12 @@ import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(HERE)
-sys.path.insert(0, os.path.join(ROOT, "examples_cpp", "tests"))
+sys.path[:0] = [HERE, os.path.join(ROOT, "examples_cpp", "tests")]
+import entries as entries_module  # noqa: E402
 import own_venv  # noqa: E402
+import setups as setups_module  # noqa: E402
+import store  # noqa: E402
+import work  # noqa: E402
 
 # One core per process is what the parallel work is planned for.
 os.environ.setdefault("OMP_NUM_THREADS", "1")
@@ -30,7 +34,7 @@ ALL = "COMBINED_SEQ"
 
 
 def enter_python():
-    """Goes on in a Python that has TrackEval."""
+    """Starts the program again in a Python that has TrackEval, if this one has not."""
     try:
         importlib.metadata.version("trackeval")
     except importlib.metadata.PackageNotFoundError:
@@ -48,7 +52,8 @@ def common_options(parser):
     parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)), help="default: all cores")
 
 
-def check_common(options):
+def prepare(options):
+    """Ends the program where something is missing; sees to TrackEval."""
     if not options.data:
         own_venv.skip("GENTRACK2_SHARED does not name the measurement data, nor does --data")
     if not os.path.isfile(f"{options.data}/tools/eval_mot.py"):
@@ -56,6 +61,7 @@ def check_common(options):
     if not os.access(options.program, os.X_OK):
         sys.exit(f"{options.program} is not there: run `make build` or give --program")
     options.program = os.path.abspath(options.program)
+    enter_python()
 
 
 def program_identity(program):
@@ -318,7 +324,7 @@ def build_setups(options, names):
 def main():
     start = time.monotonic()
     options = arguments()
-    check_common(options)
+    prepare(options)
     evaluation = Evaluation(options, build_setups(options, options.setup_names), options.entry_list)
     try:
         evaluation.run()
@@ -334,14 +340,6 @@ def main():
     print(f"\n* best of its column. {done['track']} runs and {done['judge_into']} scores were new; "
           f"{time.monotonic() - start:.1f} s", file=sys.stderr)
 
-
-if __name__ == "__main__":
-    enter_python()
-sys.path.insert(0, HERE)
-import entries as entries_module  # noqa: E402
-import setups as setups_module  # noqa: E402
-import store  # noqa: E402
-import work  # noqa: E402
 
 if __name__ == "__main__":
     main()
