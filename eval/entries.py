@@ -5,10 +5,9 @@ TRACKERS = ["gentrack2", "sort", "deepsort", "bytetrack", "ocsort", "botsort", "
 # The only one that draws random numbers.
 RANDOM = "gentrack2"
 DEFAULT = ["gentrack2", "paper", *TRACKERS[1:]]
-# They leave it to their user to drop weak detections.
-NEED_MIN_SCORE = ("sort", "deepsort")
-# One frame of memory is for higher frame rates than any here.
-SETTINGS = {"sort": ["max_age=30"]}
+# These leave it to their user to drop weak detections; 0.6 is where the others have their border between high and low
+# scores. One frame of memory is for higher frame rates than any here.
+SETTINGS = {"sort": ["min_score=0.6", "max_age=30"], "deepsort": ["min_score=0.6"]}
 
 
 @dataclasses.dataclass
@@ -17,10 +16,9 @@ class Entry:
     tracker: str
     settings: list
 
-    def all_settings(self, setup):
-        """Those of a set-up, later ones win."""
-        least = [f"min_score={setup.min_score:g}"] if self.tracker in NEED_MIN_SCORE else []
-        return SETTINGS.get(self.tracker, []) + least + self.settings
+    def all_settings(self):
+        """Later ones win."""
+        return SETTINGS.get(self.tracker, []) + self.settings
 
 
 def parse(text):

@@ -143,13 +143,13 @@ class Evaluation:
         # By set-up, entry and seed: the judge's table.
         self.tables = {}
 
-    def command(self, entry, setup, sequence, seed):
+    def command(self, entry, sequence, seed):
         """gt2_mot's command, and the file of its tracks."""
         command, parts = [self.options.program, "--tracker", entry.tracker], [self.program, entry.tracker]
         for option, value in sequence.arguments():
             command += [option, value]
             parts += [option, store.content(value) if option in setups_module.FILES else value]
-        for setting in entry.all_settings(setup):
+        for setting in entry.all_settings():
             command += ["--set", setting]
         if seed is not None:
             command += ["--seed", str(seed)]
@@ -172,7 +172,7 @@ class Evaluation:
                 (then or self.plan_score)(setup, entry, seed, tracks)
 
         for sequence in setup.sequences:
-            command, out = self.command(entry, setup, sequence, seed)
+            command, out = self.command(entry, sequence, seed)
             tracks[sequence.name] = out
             # All runs before all judging, which then has a free choice of the order; videos take longest.
             cost = 1e9 + (sequence.frames or 1000) * (100 if sequence.video else 1)
@@ -265,7 +265,7 @@ def as_json(evaluation):
     for setup, entry in itertools.product(evaluation.setups, evaluation.entries):
         runs = [{"seed": seed, "scores": evaluation.tables[setup.name, entry.name, seed]}
                 for seed in evaluation.seeds(entry)]
-        row = {"tracker": entry.tracker, "settings": entry.all_settings(setup), "runs": runs}
+        row = {"tracker": entry.tracker, "settings": entry.all_settings(), "runs": runs}
         result.setdefault(setup.name, {})[entry.name] = row
     return json.dumps(result, indent=1) + "\n"
 

@@ -54,8 +54,6 @@ class Setup:
     # How the judge counts: "full" or "half", and whether all people count.
     split: str
     humans: bool
-    # What trackers that leave weak detections to their user get at least.
-    min_score: float
 
     def judge_options(self):
         options = ["--split", self.split] + (["--humans"] if self.humans else [])
@@ -178,10 +176,6 @@ class Builder:
         """The set-up of that name; raises Missing."""
         humans = name in ("P", "Ws", "Wf", "R")
         split = "half" if name in ("H", "L2", "L4") else "full"
-        # YOLOX reports everything down to 0.01 or 0.1, and 0.6 is where the trackers with two rounds put the border.
-        # SDP (from 0.4) and MOT17's Faster R-CNN (from 0.05) have 98 % of MOT17-04's scores above it, too. MOT15's
-        # Faster R-CNN was cut at 0.5 by those who made it; published SORT was given all of that.
-        min_score = 0.5 if name in ("I", "I0") else 0.6
         if name in ("H", "L2", "L4"):
             sequences = [self.sequence("mot17", each, gmc=True) for each in MOT17]
             if name != "H":
@@ -195,4 +189,4 @@ class Builder:
             sequences = self.dancetrack()
         else:
             sequences = self.mot15(images=name == "I")
-        return Setup(name, TITLES[name], sequences, split, humans, min_score)
+        return Setup(name, TITLES[name], sequences, split, humans)
