@@ -1,32 +1,68 @@
-//! No parameter is dead: each, set to another value, changes what the tracker makes of at least one of a few scenes. A
-//! step that no longer happens, or that no longer listens to its parameter, shows here.
+//! No parameter of any algorithm is dead: each, set to another value, changes what the tracker makes of at least one of
+//! a few scenes. A step that no longer happens, or that no longer listens to its parameter, shows here.
 
 mod simulator;
 
 use gentrack2::parameters::{Kind, ParameterSpec, Value};
-use gentrack2::{Config, Embeddings, Frame, ImageView, PixelFormat, Tracker};
+use gentrack2::{Algorithm, Config, Detection, Embeddings, Frame, ImageView, PixelFormat, Tracker};
 use simulator::contract::all_tracks;
 use simulator::scene::{Observation, Scene};
 use simulator::stage;
 
-/// A scene with what the tracker is given of it, and the settings under which a parameter may matter.
-struct Setup {
-    scene: Scene,
-    seen: Vec<Observation>,
+/// Parameters that do nothing, and are there all the same.
+const DEAD: [(&str, &str); 8] = [
+    // Only GenTrack2 has random numbers; the handle has the seed for all.
+    ("sort", "seed"),
+    ("deepsort", "seed"),
+    ("bytetrack", "seed"),
+    ("ocsort", "seed"),
+    ("botsort", "seed"),
+    ("smiletrack", "seed"),
+    ("conftrack", "seed"),
+    // It makes the confidence of a lost track fade, and only a tentative track is ever asked for its confidence: so it
+    // is in the publication's program.
+    ("conftrack", "confidence_decay"),
+];
+
+/// What a tracker is given besides detections.
+#[derive(Clone, Copy, Debug, Default)]
+struct Given {
     image: bool,
     embeddings: bool,
+    camera: bool,
+    /// Two classes, now and then mistaken for each other.
+    classes: bool,
+}
+
+const NOTHING: Given = Given { image: false, embeddings: false, camera: false, classes: false };
+const IMAGE: Given = Given { image: true, ..NOTHING };
+const EMBEDDINGS: Given = Given { embeddings: true, ..NOTHING };
+const CAMERA: Given = Given { camera: true, ..NOTHING };
+const CLASSES: Given = Given { classes: true, ..NOTHING };
+
+/// A scene with what the tracker is given of it, and the settings under which a parameter may matter.
+struct Setup {
+    algorithm: Algorithm,
+    scene: Scene,
+    seen: Vec<Observation>,
+    given: Given,
     settings: &'static [(&'static str, &'static str)],
 }
 
 impl Setup {
-    fn new(scene: Scene, image: bool, embeddings: bool, settings: &'static [(&'static str, &'static str)]) -> Self {
-        let seen = scene.play(image).collect();
-        Self { scene, seen, image, embeddings, settings }
+    fn new(
+        algorithm: Algorithm,
+        scene: Scene,
+        given: Given,
+        settings: &'static [(&'static str, &'static str)],
+    ) -> Self {
+        let seen = scene.play(given.image).collect();
+        Self { algorithm, scene, seen, given, settings }
     }
 
     /// Everything that comes out, particles included; `None` if the settings do not go together.
     fn outcome(&self, key: &str, value: Option<&Value>) -> Option<Vec<String>> {
-        let mut config = Config::new("gentrack2").unwrap();
+        let mut config = Config::of(self.algorithm);
         for (key, text) in self.settings {
             config.set_text(key, text).unwrap();
         }
@@ -38,19 +74,15 @@ impl Setup {
     }
 
     fn step(&self, tracker: &mut Tracker, seen: &Observation) -> String {
-        // Each object has its own direction, clutter has one of its own, too.
-        let looks: Vec<f32> = seen
-            .source
-            .iter()
-            .flat_map(|source| (0..4).map(move |k| if source.map_or(3, |s| s % 3) == k { 1.0 } else { 0.2 }))
-            .collect();
         let (width, height) = (self.scene.width, self.scene.height);
-        let image = seen.image.as_ref().filter(|_| self.image);
+        let (looks, detections) = (looks(seen), self.detections(seen));
+        let image = seen.image.as_ref().filter(|_| self.given.image);
         let result = tracker.step(&Frame {
-            detections: &seen.detections,
+            detections: &detections,
             image: image.map(|d| ImageView::new(d, width, height, 0, PixelFormat::Gray8).unwrap()),
             size: Some((width, height)),
-            embeddings: self.embeddings.then(|| Embeddings::new(&looks, 4)),
+            embeddings: self.given.embeddings.then(|| Embeddings::new(&looks, 4)),
+            camera_motion: self.given.camera.then_some(seen.camera_motion),
             timestamp_ns: Some((seen.time * 1e9) as i64),
             ..Frame::default()
         });
@@ -62,26 +94,82 @@ impl Setup {
             Err(error) => error.to_string(),
         }
     }
+
+    fn detections(&self, seen: &Observation) -> Vec<Detection> {
+        let class = |row: usize| match self.given.classes {
+            true => (seen.source[row].unwrap_or(0) + usize::from((seen.frame + row) % 11 == 0)) as i32 % 2,
+            false => 0,
+        };
+        seen.detections.iter().enumerate().map(|(row, d)| Detection { class_id: class(row), ..*d }).collect()
+    }
 }
 
-fn setups() -> Vec<Setup> {
-    let crowd = || Scene { duration: 3.5, ..stage::ten_targets(3, 0.3) };
+/// Each object has its own direction, clutter has one of its own, too; how clear it is varies.
+fn looks(seen: &Observation) -> Vec<f32> {
+    let doubt = |row: usize| 0.2 + 0.1 * ((seen.frame + 3 * row) % 5) as f32;
+    let look = |(row, source): (usize, &Option<usize>)| {
+        let own = source.map_or(3, |s| s % 3);
+        (0..4).map(move |k| if own == k { 1.0 } else { doubt(row) }).collect::<Vec<_>>()
+    };
+    seen.source.iter().enumerate().flat_map(look).collect()
+}
+
+/// Ten targets, a third of whose detections are missed.
+fn crowd() -> Scene {
+    Scene { duration: 3.5, ..stage::ten_targets(3, 0.3) }
+}
+
+fn setups(algorithm: Algorithm) -> Vec<Setup> {
     let hidden = || stage::full_occlusion(0, 1.0);
-    let pan = Scene { duration: 4.0, ..stage::moving_camera(0, stage::SLOW_PAN) };
-    vec![
-        Setup::new(crowd(), false, false, &[]),
-        Setup::new(crowd(), true, false, &[]),
-        Setup::new(pan, false, false, &[]),
-        Setup::new(stage::meeting_and_turning_back(0), false, true, &[]),
-        Setup::new(stage::turn_while_hidden(2), false, false, &[]),
-        Setup::new(Scene { duration: 9.0, ..stage::entering_and_leaving(1) }, false, false, &[]),
-        Setup::new(crowd(), true, false, &[("preset", "paper")]),
-        Setup::new(crowd(), false, false, &[("resampling", "discard"), ("particle_source", "prior_particles")]),
-        Setup::new(crowd(), false, false, &[("strong_update", "replace"), ("jump_distance", "0.05")]),
-        // Somebody is lost for more than a second.
-        Setup::new(hidden(), false, false, &[("entrance_areas", "0,0,768,576"), ("fitness_floor", "0")]),
-        Setup::new(hidden(), true, false, &[("preset", "paper")]),
-    ]
+    let camera = |swing| Scene { duration: 4.0, ..stage::moving_camera(0, swing) };
+    let comings_and_goings = || Scene { duration: 9.0, ..stage::entering_and_leaving(1) };
+    let new = |scene, given, settings| Setup::new(algorithm, scene, given, settings);
+    let mut setups = vec![
+        new(crowd(), NOTHING, &[]),
+        new(camera(stage::SLOW_PAN), NOTHING, &[]),
+        new(stage::meeting_and_turning_back(0), EMBEDDINGS, &[]),
+        new(stage::turn_while_hidden(2), NOTHING, &[]),
+        new(comings_and_goings(), NOTHING, &[]),
+        new(crowd(), CLASSES, &[]),
+    ];
+    let given_more = [
+        new(crowd(), EMBEDDINGS, &[]),
+        new(hidden(), NOTHING, &[]),
+        new(camera(stage::SHAKE), CAMERA, &[]),
+        new(camera(stage::SHAKE), Given { embeddings: true, ..CAMERA }, &[]),
+    ];
+    match algorithm {
+        Algorithm::GenTrack2 => setups.extend([
+            new(crowd(), IMAGE, &[]),
+            new(crowd(), IMAGE, &[("preset", "paper")]),
+            new(crowd(), NOTHING, &[("resampling", "discard"), ("particle_source", "prior_particles")]),
+            new(crowd(), NOTHING, &[("strong_update", "replace"), ("jump_distance", "0.05")]),
+            // Somebody is lost for more than a second.
+            new(hidden(), NOTHING, &[("entrance_areas", "0,0,768,576"), ("fitness_floor", "0")]),
+            new(hidden(), IMAGE, &[("preset", "paper")]),
+        ]),
+        Algorithm::OcSort => {
+            setups.extend(given_more);
+            // The low scores in question are those between the thresholds.
+            setups.push(new(crowd(), NOTHING, &[("use_byte", "true"), ("det_thresh", "0.8")]));
+        }
+        Algorithm::ByteTrack | Algorithm::BotSort | Algorithm::SmileTrack | Algorithm::ConfTrack => {
+            setups.extend(given_more);
+            // Where next to no pair is too dear it does not matter what it costs.
+            setups.push(new(crowd(), NOTHING, &[("match_thresh", "0.4")]));
+        }
+        Algorithm::Sort | Algorithm::DeepSort => setups.extend(given_more),
+    }
+    match algorithm {
+        Algorithm::BotSort => setups.push(new(crowd(), EMBEDDINGS, &[("appearance_thresh", "0.03")])),
+        Algorithm::SmileTrack => setups.push(new(crowd(), EMBEDDINGS, &[("similarity_gate", "0.1")])),
+        // Who is lost is seldom found again, and a new track in its place is doubtful for a while.
+        Algorithm::ConfTrack => {
+            setups.push(new(crowd(), NOTHING, &[("proximity_thresh", "0.2"), ("confirm_thresh", "1")]));
+        }
+        _ => {}
+    }
+    setups
 }
 
 /// Other values than the default, those that change the most first.
@@ -105,20 +193,28 @@ fn alternatives(spec: &ParameterSpec) -> Vec<Value> {
     }
 }
 
-#[test]
-fn every_parameter_changes_something() {
-    let setups = setups();
+/// The parameters of an algorithm that change nothing.
+fn dead_parameters(algorithm: Algorithm) -> Vec<&'static str> {
+    let setups = setups(algorithm);
     let before: Vec<_> = setups.iter().map(|s| s.outcome("", None).expect("the settings go together")).collect();
-    let mut dead = Vec::new();
-    for spec in Config::new("gentrack2").unwrap().specs() {
+    let is_dead = |spec: &&ParameterSpec| {
         let in_range = |value: &Value| *value != spec.default && spec.check(value).is_ok();
         let values: Vec<Value> = alternatives(spec).into_iter().filter(in_range).collect();
         let matters = |(setup, before): (&Setup, &Vec<String>)| {
             values.iter().any(|value| setup.outcome(spec.key, Some(value)).is_some_and(|after| after != *before))
         };
-        if !setups.iter().zip(&before).any(matters) {
-            dead.push(spec.key);
-        }
+        !setups.iter().zip(&before).any(matters)
+    };
+    Config::of(algorithm).specs().filter(is_dead).map(|spec| spec.key).collect()
+}
+
+for_every_algorithm! {
+    fn every_parameter_changes_something(algorithm: Algorithm) {
+        let known = DEAD.iter().filter(|(name, _)| *name == algorithm.name());
+        let mut known: Vec<&str> = known.map(|(_, key)| *key).collect();
+        let mut dead = dead_parameters(algorithm);
+        known.sort_unstable();
+        dead.sort_unstable();
+        assert_eq!(dead, known, "parameters that change nothing");
     }
-    assert_eq!(dead, [""; 0], "parameters that change nothing");
 }

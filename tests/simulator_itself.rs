@@ -9,6 +9,12 @@ use simulator::path::Path;
 use simulator::scene::{Object, Scene, Truth};
 use simulator::stage;
 
+#[test]
+fn tests_of_every_algorithm_leave_none_out() {
+    let all: Vec<_> = gentrack2::Algorithm::ALL.iter().map(|a| a.name()).collect();
+    assert_eq!(for_every_algorithm!(@names list)[..], all);
+}
+
 const SEEDS: std::ops::Range<u64> = 0..10;
 
 /// The truths of one object, frame by frame.

@@ -2,16 +2,46 @@
 
 use std::collections::BTreeSet;
 
-use gentrack2::{Detection, Output, Track, TrackState};
+use gentrack2::{Algorithm, Detection, Output, Track, TrackState};
+
+/// Whether a tentative track may be among the reported ones.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TentativeReports {
+    /// What is reported is trusted.
+    #[default]
+    Never,
+    /// Those of the first frame with detections, until the detector runs again.
+    Firstborn,
+    /// The published algorithm reports whatever it tracks.
+    Always,
+}
+
+impl TentativeReports {
+    fn of(algorithm: Algorithm) -> Self {
+        match algorithm {
+            Algorithm::BotSort | Algorithm::SmileTrack => Self::Always,
+            Algorithm::ConfTrack => Self::Firstborn,
+            _ => Self::Never,
+        }
+    }
+}
 
 /// Watches the outputs of one tracker from its first step on.
 #[derive(Default)]
 pub struct Contract {
+    tentative_reports: TentativeReports,
+    /// Frames since the first one with a track, that one included.
+    frames: u32,
     live: BTreeSet<u64>,
     ended: BTreeSet<u64>,
 }
 
 impl Contract {
+    /// That of an algorithm; the default is GenTrack2's, the strictest.
+    pub fn of(algorithm: Algorithm) -> Self {
+        Self { tentative_reports: TentativeReports::of(algorithm), ..Self::default() }
+    }
+
     /// Checks one output; panics with what is wrong.
     pub fn check(&mut self, detections: &[Detection], output: &Output) {
         let mut live = BTreeSet::new();
@@ -21,7 +51,8 @@ impl Contract {
             assert!(!self.ended.contains(&track.id), "id {} is back after its end", track.id);
             check_detection_of(track, detections, output);
         }
-        check_states(output);
+        self.frames += u32::from(self.frames > 0 || !live.is_empty());
+        self.check_states(output);
         for &id in &output.ended {
             assert!(self.ended.insert(id), "id {id} ended twice");
             assert!(self.live.contains(&id), "id {id} ended without having lived");
@@ -32,6 +63,23 @@ impl Contract {
         }
         check_rows(detections, output, &live);
         self.live = live;
+    }
+
+    fn check_states(&self, output: &Output) {
+        let may_be_reported = |t: &Track| match self.tentative_reports {
+            TentativeReports::Never => false,
+            TentativeReports::Firstborn => t.age == self.frames && t.hits == 1,
+            TentativeReports::Always => true,
+        };
+        for track in &output.reported {
+            assert!(track.state != TrackState::Tentative || may_be_reported(track), "reported: {track:?}");
+        }
+        assert!(output.tentative.iter().all(|t| t.state == TrackState::Tentative), "{:?}", output.tentative);
+        assert!(
+            output.lost.iter().all(|t| t.state == TrackState::Lost && t.detection_index.is_none()),
+            "{:?}",
+            output.lost
+        );
     }
 
     /// Identities alive after the last output.
@@ -67,16 +115,6 @@ fn check_detection_of(track: &Track, detections: &[Detection], output: &Output) 
     assert_eq!(track.class_id, detection.class_id, "class of {track:?}");
     assert_eq!(track.tag, detection.tag, "tag of {track:?}");
     assert_eq!(track.score, detection.score, "score of {track:?}");
-}
-
-fn check_states(output: &Output) {
-    assert!(output.reported.iter().all(|t| t.state != TrackState::Tentative), "{:?}", output.reported);
-    assert!(output.tentative.iter().all(|t| t.state == TrackState::Tentative), "{:?}", output.tentative);
-    assert!(
-        output.lost.iter().all(|t| t.state == TrackState::Lost && t.detection_index.is_none()),
-        "{:?}",
-        output.lost
-    );
 }
 
 fn check_rows(detections: &[Detection], output: &Output, live: &BTreeSet<u64>) {

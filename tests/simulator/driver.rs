@@ -1,6 +1,6 @@
 //! Feeds a scene to a tracker.
 
-use gentrack2::{Config, Error, Frame, ImageView, Output, PixelFormat, Tracker};
+use gentrack2::{Algorithm, Config, Error, Frame, ImageView, Output, PixelFormat, Tracker};
 
 use super::scene::{Observation, Scene};
 
@@ -51,6 +51,17 @@ impl Feed {
 pub fn tracker(seed: u64) -> Tracker {
     let mut config = Config::new("gentrack2").unwrap();
     config.set_text("seed", &seed.to_string()).unwrap();
+    Tracker::new(&config).unwrap()
+}
+
+/// The default tracker of an algorithm, but for some settings. Those that the algorithm does not have are left out.
+pub fn tracker_of(algorithm: Algorithm, settings: &[(&str, &str)]) -> Tracker {
+    let mut config = Config::of(algorithm);
+    for (key, text) in settings {
+        if *key == "preset" || config.get(key).is_ok() {
+            config.set_text(key, text).unwrap();
+        }
+    }
     Tracker::new(&config).unwrap()
 }
 

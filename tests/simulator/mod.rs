@@ -12,6 +12,7 @@ pub mod camera;
 pub mod contract;
 pub mod detector;
 pub mod driver;
+pub mod everyone;
 pub mod noise;
 pub mod path;
 pub mod render;
