@@ -497,6 +497,8 @@ mod twenty_thousand {
     const COUNT: usize = 20_000;
     /// In a development build on a busy machine; a release build takes a fraction.
     const LIMIT: Duration = Duration::from_secs(20);
+    /// The same for those without a rule against births on top of each other, which are left with as many tracks.
+    const LIMIT_OF_OTHERS: Duration = Duration::from_secs(60);
 
     fn three_frames(mut watched: Watched, detections: impl Fn(usize) -> Vec<Detection>) -> Watched {
         let mut took = Duration::ZERO;
@@ -509,7 +511,8 @@ mod twenty_thousand {
             watched.contract.check(&detections, watched.tracker.output());
         }
         println!("{:?}: {took:?}, {} tracks", watched.tracker, watched.listed());
-        assert!(took < LIMIT, "{took:?}");
+        let limit = if watched.tracker.algorithm() == Algorithm::GenTrack2 { LIMIT } else { LIMIT_OF_OTHERS };
+        assert!(took < limit, "{took:?}");
         watched
     }
 
