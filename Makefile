@@ -10,16 +10,18 @@ export GENTRACK2_SHARED := $(abspath ../shared)
 endif
 endif
 
-.PHONY: help build demo test lint fmt-check clean
+.PHONY: help build demo test accuracy lint fmt-check clean
 
 help:
 	@echo "make build      the library and the examples, in $(BUILD)/"
 	@echo "make demo       track OpenCV's sample video; results in out/"
 	@echo "make test       all tests: Rust, C and C++"
+	@echo "make accuracy   a table of all trackers on all set-ups of eval/README.md, if GENTRACK2_SHARED names the data;"
+	@echo "                ACCURACY='--entries gentrack2 --setups H,P' and the like are options of eval/evaluate.py"
 	@echo "make lint       formatting and clippy"
 	@echo "make clean      remove $(BUILD)/, out/ and target/"
 	@echo
-	@echo "build, demo and test install the Debian packages they need and do not find."
+	@echo "build, demo, test and accuracy install the Debian packages they need and do not find."
 
 build:
 	@tools/install-needs.sh build
@@ -36,6 +38,11 @@ test:
 	@$(MAKE) --no-print-directory build
 	cargo test
 	ctest --test-dir $(BUILD) --output-on-failure
+
+accuracy:
+	@tools/install-needs.sh test
+	@$(MAKE) --no-print-directory build
+	@python3 eval/evaluate.py $(ACCURACY)
 
 lint: fmt-check
 	cargo clippy --all-targets -- -D warnings

@@ -266,8 +266,8 @@ typedef struct gt2_detection {
     double left;
     /// Top edge in pixels; y points down.
     double top;
-    /// Width in pixels, not negative. A box of zero width or height (less than 1e-6) is accepted but belongs to no
-    /// track: it overlaps no other box.
+    /// Width in pixels, not negative. A box of zero width or height (less than 1e-6) is accepted; with gentrack2 it
+    /// belongs to no track, as it overlaps no other box. The other algorithms do with it what their publications do.
     double width;
     /// Height in pixels, not negative.
     double height;
@@ -337,7 +337,8 @@ typedef struct gt2_frame {
     /// the one before.
     int32_t has_timestamp;
     /// 1 if the detector did not run on this frame (and there are no detections): tracks move on and are not blamed
-    /// for a miss. 0 if it ran, even if it found nothing.
+    /// for a miss. 0 if it ran, even if it found nothing. Time passes all the same: for a track that is not matched when
+    /// the detector runs again, its whole rest counts as time without a match.
     int32_t detector_skipped;
 } gt2_frame;
 

@@ -344,8 +344,9 @@ parameters! {
     /// Parameters of the handle, the same for every algorithm.
     pub struct CommonParameters {
         /// Nominal frame rate. Without timestamps a step is one frame interval; with them it says how many frames
-        /// the elapsed time is worth. Set it to the rate at which `step` is called: motion limits and lifetimes are
-        /// kept in real time.
+        /// the elapsed time is worth. Set it to the rate at which `step` is called: speeds are per second. What is in
+        /// ticks, and the track_buffer of bytetrack, botsort and smiletrack, is then kept in real time; what is in
+        /// frames counts frames at this rate.
         frame_rate: f64 = 30.0, [0.1, 1000.0], "frames/s", "";
         /// Seed of the random numbers. The same input, configuration and seed give bit-identical output.
         seed: i64 = 0, [0, i64::MAX], "", "";

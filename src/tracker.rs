@@ -30,6 +30,10 @@ pub struct StepContext<'a> {
     pub ids: &'a mut IdSource,
 }
 
+/// Clocks tick, and few frame intervals are a whole number of ticks: what is within this share of a frame of a whole
+/// number of frames is that number, so that a stream at its nominal rate is the same with timestamps and without.
+const CLOCK_TICK: f64 = 1e-3;
+
 /// Hands out identities.
 #[derive(Clone, Debug)]
 pub struct IdSource {
@@ -146,7 +150,11 @@ impl Tracker {
 
     fn elapsed_frames(&self, now: Option<i64>) -> f64 {
         match (now, self.history.timestamp_ns) {
-            (Some(now), Some(before)) => now.abs_diff(before) as f64 * 1e-9 * self.common.frame_rate,
+            (Some(now), Some(before)) => {
+                let elapsed = now.abs_diff(before) as f64 * 1e-9 * self.common.frame_rate;
+                let whole = elapsed.round();
+                if (elapsed - whole).abs() < CLOCK_TICK && whole > 0.0 { whole } else { elapsed }
+            }
             _ => 1.0,
         }
     }

@@ -58,7 +58,7 @@ ParsedRow parse_detection(const std::string &path, long line, std::string_view t
         }
     }
     for (int i = 4; i < 6; ++i) {
-        if (values[i] <= 0) bad_row(path, line, std::string(names[i]) + " " + quoted(fields[i]) + " is not above 0");
+        if (values[i] < 0) bad_row(path, line, std::string(names[i]) + " " + quoted(fields[i]) + " is negative");
     }
     const double score = values[6];
     if (!any_score && (score < 0 || score > 1)) {

@@ -5,6 +5,7 @@ usage: gt2_mot_test.py PROGRAM
 import math
 import os
 import random
+import re
 import struct
 import subprocess
 import sys
@@ -234,6 +235,87 @@ class Results(Case):
         self.assertEqual(struct.unpack(">2I", header[16:]), (3 * 640 + 4 * 6, 2 * 480 + 3 * 6))
 
 
+# An oracle per tracker, with the options that feed it, and the settings in which it differs from the defaults.
+SHIPPED_CONFTRACK = ("confidence_weighting=false", "noise_scaling=false", "constant_size=false",
+                     "low_confidence_matching=false", "new_track_thresh=0.7")
+ORACLES = (
+    # tracker, folder, sequence, least score, camera motion, embeddings, settings
+    ("sort", "sort", "syn_a1", 0.6, False, False, ()),
+    ("sort", "sort-age30", "syn_a4", 0.6, False, False, ("max_age=30",)),
+    ("deepsort", "deepsort", "syn_a2", 0.6, False, True, ()),
+    ("ocsort", "ocsort", "syn_a3", 0.1, False, False, ()),
+    ("ocsort", "ocsort-byte", "syn_a1", 0.1, False, False, ("use_byte=true",)),
+    ("bytetrack", "bytetrack", "syn_b1", 0.1, False, False, ()),
+    ("botsort", "botsort", "syn_b2", 0.1, True, False, ()),
+    ("botsort", "botsort-reid", "syn_b3", 0.1, True, True, ()),
+    ("smiletrack", "smiletrack", "syn_b2", 0.1, True, True, ()),
+    ("conftrack", "conftrack", "syn_b2", 0.1, True, True, SHIPPED_CONFTRACK),
+    ("conftrack", "conftrack-full-reid", "syn_b3", 0.1, True, True, ()),
+)
+FIXTURES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tests", "fixtures", "oracles")
+
+
+@unittest.skipUnless(os.path.isdir(FIXTURES), "the oracles are not in a released package")
+class Trackers(Case):
+    def oracle(self, *parts):
+        return os.path.join(FIXTURES, *parts)
+
+    def read(self, lines):
+        """By frame, the identities and boxes."""
+        frames = {}
+        for line in lines:
+            frame, track, *box = line.split(",")[:6]
+            frames.setdefault(int(frame), []).append((track, [float(x) for x in box]))
+        return frames
+
+    def same(self, ours, golden):
+        """Per frame the same boxes to a thousandth of a pixel, and identities that differ in their names only."""
+        self.assertEqual(sorted(ours), sorted(golden), "the frames with tracks")
+        names, back = {}, {}
+        for frame in sorted(golden):
+            left = list(ours[frame])
+            self.assertEqual(len(left), len(golden[frame]), f"tracks in frame {frame}")
+            # Known identities first: two tracks may have the same box.
+            for track, box in sorted(golden[frame], key=lambda row: row[0] not in names):
+                near = [row for row in left if all(abs(a - b) <= 1e-3 for a, b in zip(row[1], box))
+                        and names.get(track, row[0]) == row[0] and back.get(row[0], track) == track]
+                self.assertTrue(near, f"frame {frame}: nobody is {track} at {box}")
+                left.remove(near[0])
+                names[track], back[near[0][0]] = near[0][0], track
+
+    def test_oracles_are_reproduced(self):
+        for tracker, folder, sequence, score, moving, looks, settings in ORACLES:
+            with self.subTest(oracle=f"{folder}/{sequence}"):
+                inputs = lambda end: self.oracle("synthetic", f"{sequence}.{end}")
+                arguments = ["--tracker", tracker, "--det", inputs("det.txt"), "--out", "-", "--min-score", score]
+                arguments += ["--gmc", inputs("gmc.txt")] if moving else []
+                arguments += ["--embeddings", inputs("f32"), "--dim", 16] if looks else []
+                for setting in settings:
+                    arguments += ["--set", setting]
+                done = self.run_program(*arguments, "--frames", 300)
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+                with open(self.oracle(folder, f"{sequence}.csv")) as file:
+                    golden = self.read(file.readlines()[1:])
+                self.assertGreater(len(golden), 50)
+                self.same(self.read(done.stdout.splitlines()), golden)
+
+    def test_every_tracker_takes_everything(self):
+        """The eight that --help names, with all inputs at once."""
+        text = self.run_program("--help").stdout
+        names = re.search(r"(?m)^  --tracker NAME +(.*)$", text)[1].split()
+        self.assertEqual(len(names), 8)
+        inputs = lambda end: self.oracle("synthetic", f"syn_b1.{end}")
+        for name in names:
+            with self.subTest(tracker=name):
+                done = self.run_program("--tracker", name, "--det", inputs("det.txt"), "--out", "-",
+                                        "--gmc", inputs("gmc.txt"), "--embeddings", inputs("f32"), "--dim", 16,
+                                        "--min-score", 0.1, "--set", "class_policy=separate", "--size", "1920x1080")
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+                rows = self.read(done.stdout.splitlines())
+                self.assertGreater(len(rows), 200)
+                self.assertTrue(all(len({track for track, _ in frame}) == len(frame) for frame in rows.values()))
+
+
 class CameraMotion(Case):
     def swing(self, frames):
         swing = Swing(frames)
@@ -287,8 +369,8 @@ class Mistakes(Case):
             ("2,-1,10,nan,20,40,0.9", 'top "nan" is not a finite number'),
             ("2,-1,10,10,inf,40,0.9", 'width "inf" is not a finite number'),
             ("2,-1,-2e12,10,20,40,0.9", 'left "-2e12" is beyond 1e12 pixels'),
-            ("2,-1,10,10,0,40,0.9", 'width "0" is not above 0'),
-            ("2,-1,10,10,20,-4,0.9", 'height "-4" is not above 0'),
+            ("2,-1,10,10,-0.5,40,0.9", 'width "-0.5" is negative'),
+            ("2,-1,10,10,20,-4,0.9", 'height "-4" is negative'),
             ("2,-1,10,10,20,40,", 'score "" is not a finite number'),
             ("2,-1,10,10,20,40,3.1", 'score "3.1" is outside 0..1 (--normalise-scores'),
             ("2,-1,10,10,20,40,-0.1", 'score "-0.1" is outside 0..1'),

@@ -14,8 +14,8 @@ pub struct gt2_detection {
     pub left: f64,
     /// Top edge in pixels; y points down.
     pub top: f64,
-    /// Width in pixels, not negative. A box of zero width or height (less than 1e-6) is accepted but belongs to no
-    /// track: it overlaps no other box.
+    /// Width in pixels, not negative. A box of zero width or height (less than 1e-6) is accepted; with gentrack2 it
+    /// belongs to no track, as it overlaps no other box. The other algorithms do with it what their publications do.
     pub width: f64,
     /// Height in pixels, not negative.
     pub height: f64,

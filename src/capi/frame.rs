@@ -47,7 +47,8 @@ pub struct gt2_frame {
     /// the one before.
     pub has_timestamp: i32,
     /// 1 if the detector did not run on this frame (and there are no detections): tracks move on and are not blamed
-    /// for a miss. 0 if it ran, even if it found nothing.
+    /// for a miss. 0 if it ran, even if it found nothing. Time passes all the same: for a track that is not matched when
+    /// the detector runs again, its whole rest counts as time without a match.
     pub detector_skipped: i32,
 }
 

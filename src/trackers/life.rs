@@ -60,6 +60,11 @@ impl Life {
     }
 }
 
+/// Whether a time in frames is beyond a life of so many. Timestamps are never exact, so it is by the nearest whole number.
+pub fn is_beyond(time: f64, frames: f64) -> bool {
+    time >= frames + 0.5
+}
+
 /// Smallest height, and smallest width where a filter divides by it, of a detection that a Kalman filter can take, in
 /// pixels.
 pub const SMALLEST: f64 = 1e-3;

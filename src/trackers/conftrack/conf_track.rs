@@ -6,7 +6,7 @@ use crate::frame::Detection;
 use crate::geometry::{Rect, State};
 use crate::kalman::{BoxFilter, NoiseWeights, WidthHeight};
 use crate::track::{Track, TrackState};
-use crate::trackers::life::{Life, presentable, presentable_velocity};
+use crate::trackers::life::{Life, is_beyond, presentable, presentable_velocity};
 
 /// Where a track stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,7 +89,7 @@ impl ConfTrackTrack {
         self.missed += since;
         let s = self.filter.state();
         let is_valid = s.w / s.h <= p.max_aspect && s.w * s.h >= p.min_area;
-        let lives_on = self.standing != Standing::Tentative && self.missed <= p.max_age as f64 && is_valid;
+        let lives_on = self.standing != Standing::Tentative && !is_beyond(self.missed, p.max_age as f64) && is_valid;
         self.standing = if lives_on { Standing::Lost } else { Standing::Over };
     }
 

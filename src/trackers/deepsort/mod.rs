@@ -7,7 +7,7 @@ mod parameters;
 pub use parameters::*;
 
 use super::TrackingAlgorithm;
-use super::life::{Life, SMALLEST, presentable, presentable_velocity};
+use super::life::{Life, SMALLEST, is_beyond, presentable, presentable_velocity};
 use super::overlaps::Extent;
 use super::pairing::Pairing;
 use crate::assignment::Edge;
@@ -55,7 +55,7 @@ impl DeepTrack {
     }
 
     fn is_over(&self, max_age: f64) -> bool {
-        self.missed_frames > 0 && (!self.confirmed || self.missed > max_age)
+        self.missed_frames > 0 && (!self.confirmed || is_beyond(self.missed, max_age))
     }
 
     fn shown(&self, frame_rate: f64) -> Track {
@@ -89,7 +89,6 @@ struct Workspace {
     /// Tracks of the cascade, the least missed first, and those of one of its steps.
     cascade: Vec<u32>,
     step: Vec<u32>,
-    leftover: Vec<u32>,
     edges: Vec<Edge>,
     pairing: Pairing,
     spare: Vec<Gallery>,
@@ -123,13 +122,14 @@ impl DeepSort {
     /// Confirmed tracks by their looks within the gate of their motion, those that were seen last first.
     fn cascade(&mut self, frame: &Frame<'_>, context: &StepContext<'_>) {
         let (p, tracks, work) = (&self.parameters, &mut self.tracks, &mut self.work);
-        let takes_part = |t: &DeepTrack| t.confirmed && t.missed <= p.max_age as f64;
+        // Missed for the first time it is sought however long the detector has rested.
+        let in_time = |t: &DeepTrack| !is_beyond(t.missed, p.max_age as f64) || t.missed_frames == 1 && p.max_age > 0;
+        let takes_part = |t: &DeepTrack| t.confirmed && in_time(t);
         work.cascade.clear();
         work.cascade.extend((0..).zip(tracks.iter()).filter(|(_, t)| takes_part(t)).map(|(i, _)| i));
         work.cascade.sort_unstable_by_key(|t| (tracks[*t as usize].missed_frames, *t));
         let filters = work.cascade.iter().map(|t| &tracks[*t as usize].filter);
         work.gated.find(filters, work.rows.iter().map(|r| (*r, frame.detections[*r as usize].rect)), p.gate);
-        work.leftover.clear();
         let mut from = 0;
         while from < work.cascade.len() {
             let missed = |t: u32| tracks[t as usize].missed_frames;
@@ -145,7 +145,6 @@ impl DeepSort {
                 track.take(row, &frame.detections[row as usize], p);
                 track.learn(work.embeddings.row(row as usize), p);
             }
-            work.leftover.extend_from_slice(&work.step);
             from += count;
         }
     }
@@ -155,9 +154,8 @@ impl DeepSort {
         let (p, tracks, work) = (&self.parameters, &mut self.tracks, &mut self.work);
         work.step.clear();
         work.step.extend((0..).zip(tracks.iter()).filter(|(_, t)| !t.confirmed).map(|(i, _)| i));
-        work.leftover.retain(|t| tracks[*t as usize].missed_frames == 1);
-        work.leftover.sort_unstable();
-        work.step.extend_from_slice(&work.leftover);
+        let fresh = (0..).zip(tracks.iter()).filter(|(_, t)| t.confirmed && t.missed_frames == 1);
+        work.step.extend(fresh.map(|(i, _)| i));
         let detection = |row: u32| &frame.detections[row as usize];
         let cost = |track: u32, row: u32, iou: f64| {
             let same = context.classes.allows(tracks[track as usize].life.last.class_id, detection(row).class_id);

@@ -1,6 +1,7 @@
 //! The current run of matches of a track, and its time without.
 
 use crate::track::TrackState;
+use crate::trackers::life::is_beyond;
 
 /// Counters that decide what is reported and who goes.
 #[derive(Clone, Copy, Debug, Default)]
@@ -45,7 +46,7 @@ impl Run {
 
     /// Whether the track has not been seen for more than `max_age` frames.
     pub fn is_over(&self, max_age: i64) -> bool {
-        self.missed > max_age as f64
+        is_beyond(self.missed, max_age as f64)
     }
 
     /// Whether a detection was taken on the last frame on which the detector ran.
@@ -110,5 +111,12 @@ mod tests {
         run.next_frame(5.0);
         run.next_frame(5.0);
         assert!(!run.is_over(10) && run.is_over(9));
+    }
+
+    #[test]
+    fn a_frame_that_comes_a_little_late_is_a_frame() {
+        let mut run = Run::default();
+        run.next_frame(1.02);
+        assert!(!run.is_over(1) && run.is_over(0));
     }
 }

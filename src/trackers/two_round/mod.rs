@@ -20,7 +20,7 @@ use crate::kalman::{BoxFilter, is_sane};
 use crate::track::Output;
 use crate::tracker::StepContext;
 use crate::trackers::TrackingAlgorithm;
-use crate::trackers::life::SMALLEST;
+use crate::trackers::life::{SMALLEST, is_beyond};
 use crate::trackers::overlaps::{Extent, Overlaps};
 use crate::trackers::pairing::Pairing;
 
@@ -234,7 +234,7 @@ impl<F: BoxFilter> TwoRound<F> {
                 member.fate = Fate::Gone;
             }
             // Given up now: sought for one more frame.
-            member.given_up |= member.fate == Fate::Lost && self.now - member.last > max_lost;
+            member.given_up |= member.fate == Fate::Lost && is_beyond(self.now - member.last, max_lost);
         }
         let work = &mut self.work;
         for fate in [Fate::Tracked, Fate::New, Fate::Found, Fate::Lost, Fate::NewlyLost] {
