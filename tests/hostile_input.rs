@@ -536,6 +536,24 @@ mod twenty_thousand {
         detections
     }
 
+    /// OC-SORT's other measures look at all pairs, unless there are too many, as with the second number of detections.
+    #[test]
+    fn by_every_measure_of_ocsort() {
+        for measure in ["giou", "diou", "ciou", "centre_distance"] {
+            for count in [3000, COUNT] {
+                let settings = [("asso_func", measure), ("use_byte", "true"), ("iou_threshold", "0.9")];
+                let mut watched = Watched::with(Algorithm::OcSort, &settings);
+                let start = Instant::now();
+                for t in 0..3 {
+                    watched.step(&Frame::new(&random(t)[..count]));
+                }
+                let took = start.elapsed();
+                println!("{measure}, {count}: {took:?}, {} tracks", watched.listed());
+                assert!(took < LIMIT_OF_OTHERS, "{measure}, {count}: {took:?}");
+            }
+        }
+    }
+
     for_every_algorithm! {
         fn at_random(algorithm: Algorithm) {
             three_frames(Watched::new(algorithm), random);
