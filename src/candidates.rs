@@ -14,8 +14,8 @@ pub struct OverlapSweep {
     order: Vec<Entry>,
     active: [Vec<u32>; 2],
     pairs: Vec<(u32, u32)>,
-    // For each row the distance from which partners are out: that of its last one, once it had too many.
-    reach: Vec<f64>,
+    // For each row the rank from which partners are out: that of its last one, once it had too many.
+    reach: Vec<(f64, u32)>,
     ranked: Vec<(f64, u32)>,
 }
 
@@ -31,7 +31,7 @@ impl OverlapSweep {
     pub fn pairs(&mut self, rows: &[Rect], columns: &[Rect]) -> &[(u32, u32)] {
         self.pairs.clear();
         self.reach.clear();
-        self.reach.resize(rows.len(), f64::INFINITY);
+        self.reach.resize(rows.len(), (f64::INFINITY, 0));
         self.fill_order(rows, columns);
         let most_pairs = 2 * MOST_PER_ROW * rows.len();
         let lists = [rows, columns];
@@ -39,7 +39,7 @@ impl OverlapSweep {
             let entry = self.order[at];
             let (own, other) = (entry.list as usize, 1 - entry.list as usize);
             let rect = &lists[own][entry.index as usize];
-            let mut kept = 0;
+            let (first, mut kept) = (self.pairs.len(), 0);
             for k in 0..self.active[other].len() {
                 let candidate = self.active[other][k];
                 let box_ = &lists[other][candidate as usize];
@@ -50,13 +50,19 @@ impl OverlapSweep {
                 kept += 1;
                 if box_.top < rect.bottom() && rect.top < box_.bottom() {
                     let pair = if own == 0 { (entry.index, candidate) } else { (candidate, entry.index) };
-                    if distance(rows, columns, pair) < self.reach[pair.0 as usize] {
+                    if is_before((distance(rows, columns, pair), pair.1), self.reach[pair.0 as usize]) {
                         self.pairs.push(pair);
                     }
                 }
             }
             self.active[other].truncate(kept);
             self.active[own].push(entry.index);
+            if own == 0 && self.pairs.len() - first > MOST_PER_ROW {
+                // At once, as else the pairs of a crowd would be sorted over and over.
+                self.rank(first..self.pairs.len(), rows, columns);
+                self.pairs.truncate(first);
+                self.pairs.extend(self.ranked.iter().map(|ranked| (entry.index, ranked.1)));
+            }
             if self.pairs.len() > most_pairs {
                 self.keep_nearest(rows, columns);
             }
@@ -73,14 +79,7 @@ impl OverlapSweep {
             let row = self.pairs[from].0;
             let count = self.pairs[from..].iter().take_while(|p| p.0 == row).count();
             if count > MOST_PER_ROW {
-                self.ranked.clear();
-                let of_row = self.pairs[from..from + count].iter();
-                self.ranked.extend(of_row.map(|pair| (distance(rows, columns, *pair), pair.1)));
-                let by_distance = |a: &(f64, u32), b: &(f64, u32)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
-                self.ranked.select_nth_unstable_by(MOST_PER_ROW - 1, by_distance);
-                self.reach[row as usize] = self.ranked[MOST_PER_ROW - 1].0;
-                self.ranked.truncate(MOST_PER_ROW);
-                self.ranked.sort_unstable_by_key(|ranked| ranked.1);
+                self.rank(from..from + count, rows, columns);
                 for ranked in &self.ranked {
                     self.pairs[kept] = (row, ranked.1);
                     kept += 1;
@@ -94,6 +93,19 @@ impl OverlapSweep {
         self.pairs.truncate(kept);
     }
 
+    /// Puts the nearest partners of a row with too many, whose pairs are `range`, into `ranked`, by index.
+    fn rank(&mut self, range: std::ops::Range<usize>, rows: &[Rect], columns: &[Rect]) {
+        let of_row = &self.pairs[range];
+        let row = of_row[0].0 as usize;
+        self.ranked.clear();
+        self.ranked.extend(of_row.iter().map(|pair| (distance(rows, columns, *pair), pair.1)));
+        let by_distance = |a: &(f64, u32), b: &(f64, u32)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+        self.ranked.select_nth_unstable_by(MOST_PER_ROW - 1, by_distance);
+        self.reach[row] = self.ranked[MOST_PER_ROW - 1];
+        self.ranked.truncate(MOST_PER_ROW);
+        self.ranked.sort_unstable_by_key(|ranked| ranked.1);
+    }
+
     fn fill_order(&mut self, rows: &[Rect], columns: &[Rect]) {
         self.order.clear();
         self.active.iter_mut().for_each(Vec::clear);
@@ -104,6 +116,11 @@ impl OverlapSweep {
         self.order
             .sort_unstable_by(|a, b| a.left.total_cmp(&b.left).then(a.list.cmp(&b.list)).then(a.index.cmp(&b.index)));
     }
+}
+
+/// Partners rank by their distance, equally far ones by their index.
+fn is_before(a: (f64, u32), b: (f64, u32)) -> bool {
+    a.0 < b.0 || (a.0 == b.0 && a.1 < b.1)
 }
 
 /// How far apart the centres of a pair are: the sum of both components.
@@ -139,6 +156,34 @@ mod tests {
             }
             let mut sweep = OverlapSweep::default();
             sweep.pairs(&columns, &rows);
+            prop_assert_eq!(sweep.pairs(&rows, &columns), &expected[..]);
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
+        /// Few places and large boxes, so that many partners are equally far, in crowds large enough to be thinned out
+        /// on the way.
+        #[test]
+        fn the_nearest_partners_are_those_of_all_pairs(
+            rows in proptest::collection::vec((0i32..9, 0i32..9, 10i32..12), 1..150),
+            columns in proptest::collection::vec((0i32..9, 0i32..9, 10i32..12), 1..150),
+        ) {
+            let boxes = |list: &[(i32, i32, i32)]| -> Vec<Rect> {
+                list.iter().map(|(l, t, side)| Rect::new(*l as f64, *t as f64, *side as f64, *side as f64)).collect()
+            };
+            let (rows, columns) = (boxes(&rows), boxes(&columns));
+            let mut expected = Vec::new();
+            for row in 0..rows.len() as u32 {
+                let partners = (0..columns.len() as u32).filter(|c| rows[row as usize].iou(&columns[*c as usize]) > 0.0);
+                let mut ranked: Vec<_> = partners.map(|c| (distance(&rows, &columns, (row, c)), c)).collect();
+                ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+                ranked.truncate(MOST_PER_ROW);
+                ranked.sort_by_key(|ranked| ranked.1);
+                expected.extend(ranked.iter().map(|ranked| (row, ranked.1)));
+            }
+            let mut sweep = OverlapSweep::default();
             prop_assert_eq!(sweep.pairs(&rows, &columns), &expected[..]);
         }
     }

@@ -97,7 +97,7 @@ impl Setup {
 
     fn detections(&self, seen: &Observation) -> Vec<Detection> {
         let class = |row: usize| match self.given.classes {
-            true => (seen.source[row].unwrap_or(0) + usize::from((seen.frame + row) % 11 == 0)) as i32 % 2,
+            true => (seen.source[row].unwrap_or(0) + usize::from((seen.frame + row).is_multiple_of(11))) as i32 % 2,
             false => 0,
         };
         seen.detections.iter().enumerate().map(|(row, d)| Detection { class_id: class(row), ..*d }).collect()

@@ -79,6 +79,18 @@ pub fn presentable(state: &State, last: &Detection) -> Rect {
 
 /// A filter's velocity as it is handed out, per second.
 pub fn presentable_velocity(velocity: State, frame_rate: f64) -> State {
-    let finite = |x: f64| if x.is_finite() { x * frame_rate } else { 0.0 };
-    State::new(finite(velocity.u), finite(velocity.v), finite(velocity.w), finite(velocity.h))
+    let v = velocity * frame_rate;
+    let finite = |x: f64| if x.is_finite() { x } else { 0.0 };
+    State::new(finite(v.u), finite(v.v), finite(v.w), finite(v.h))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_velocity_that_is_finite_per_frame_only_is_none() {
+        let velocity = State::new(1e307, 2.0, f64::NAN, f64::NEG_INFINITY);
+        assert_eq!(presentable_velocity(velocity, 100.0), State::new(0.0, 200.0, 0.0, 0.0));
+    }
 }
