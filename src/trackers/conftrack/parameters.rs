@@ -19,7 +19,8 @@ parameters! {
         init_age: i64 = 3, [1, 1_000_000], "matches", "";
         /// Frames without a match that a confirmed track survives.
         max_age: i64 = 30, [0, 1_000_000], "frames", "";
-        /// Share of its confidence that a track keeps per missed frame.
+        /// Share of its confidence that a track keeps per missed frame. As published; nothing depends on it, for only
+        /// tentative tracks are asked for theirs, and they end with the first miss.
         confidence_decay: f64 = 0.9, [0.0, 1.0], "", "";
         /// Largest 1 - IoU of a pair in the first round.
         proximity_thresh: f64 = 0.6, [0.0, 0.99], "", "";

@@ -45,8 +45,8 @@ impl Rules {
             }
             (Looks::Veto { limit, weight, gate }, Some(distance)) => {
                 let far = member.filter.gating_distance(&detection.rect);
-                let refused = far > gate || weight * distance + (1.0 - weight) * far > limit;
-                if refused { 1.0 } else { 1.0 - iou }
+                let alike = far <= gate && weight * distance + (1.0 - weight) * far <= limit;
+                if alike { 1.0 - iou } else { 1.0 }
             }
             _ => self.fused(detection, iou),
         }
