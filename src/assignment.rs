@@ -206,7 +206,8 @@ enum End {
     Row(u32),
 }
 
-fn refill<T: Copy>(buffer: &mut Vec<T>, length: usize, value: T) {
+/// Sets a buffer to so many equal values.
+pub(crate) fn refill<T: Copy>(buffer: &mut Vec<T>, length: usize, value: T) {
     buffer.clear();
     buffer.resize(length, value);
 }

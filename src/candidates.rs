@@ -1,12 +1,14 @@
 //! Which boxes of two lists overlap, found by a sweep along x instead of by trying all pairs.
 //!
-//! A row has at most [`MOST_PER_ROW`] partners, the nearest ones: no scene has that many boxes on top of each other, but
-//! hostile input has, and all its pairs do not fit into memory.
+//! With more than about a thousand boxes in both lists a row has a limited number of partners, the nearest ones: all pairs
+//! of tens of thousands of boxes on one spot do not fit into memory.
 
 use crate::geometry::Rect;
 
-/// Most partners of one row.
-pub const MOST_PER_ROW: usize = 32;
+/// Pairs for which there is always room; rows share it.
+const ROOM: usize = 1 << 20;
+/// Partners that each row may have in any case.
+const LEAST_PER_ROW: usize = 32;
 
 /// The sweep, with buffers that are reused from call to call.
 #[derive(Clone, Debug, Default)]
@@ -29,11 +31,16 @@ struct Entry {
 impl OverlapSweep {
     /// The `(row, column)` whose boxes share an area, sorted by row, then column.
     pub fn pairs(&mut self, rows: &[Rect], columns: &[Rect]) -> &[(u32, u32)] {
+        self.limited_pairs(rows, columns, LEAST_PER_ROW.max(ROOM / rows.len().max(1)))
+    }
+
+    /// The same with at most so many partners per row.
+    fn limited_pairs(&mut self, rows: &[Rect], columns: &[Rect], most: usize) -> &[(u32, u32)] {
         self.pairs.clear();
         self.reach.clear();
         self.reach.resize(rows.len(), (f64::INFINITY, 0));
         self.fill_order(rows, columns);
-        let most_pairs = 2 * MOST_PER_ROW * rows.len();
+        let most_pairs = 2 * most * rows.len();
         let lists = [rows, columns];
         for at in 0..self.order.len() {
             let entry = self.order[at];
@@ -57,29 +64,29 @@ impl OverlapSweep {
             }
             self.active[other].truncate(kept);
             self.active[own].push(entry.index);
-            if own == 0 && self.pairs.len() - first > MOST_PER_ROW {
+            if own == 0 && self.pairs.len() - first > most {
                 // At once, as else the pairs of a crowd would be sorted over and over.
-                self.rank(first..self.pairs.len(), rows, columns);
+                self.rank(first..self.pairs.len(), rows, columns, most);
                 self.pairs.truncate(first);
                 self.pairs.extend(self.ranked.iter().map(|ranked| (entry.index, ranked.1)));
             }
             if self.pairs.len() > most_pairs {
-                self.keep_nearest(rows, columns);
+                self.keep_nearest(rows, columns, most);
             }
         }
-        self.keep_nearest(rows, columns);
+        self.keep_nearest(rows, columns, most);
         &self.pairs
     }
 
     /// Sorts the pairs and leaves each row its nearest partners, the first of equally near ones.
-    fn keep_nearest(&mut self, rows: &[Rect], columns: &[Rect]) {
+    fn keep_nearest(&mut self, rows: &[Rect], columns: &[Rect], most: usize) {
         self.pairs.sort_unstable();
         let (mut from, mut kept) = (0, 0);
         while from < self.pairs.len() {
             let row = self.pairs[from].0;
             let count = self.pairs[from..].iter().take_while(|p| p.0 == row).count();
-            if count > MOST_PER_ROW {
-                self.rank(from..from + count, rows, columns);
+            if count > most {
+                self.rank(from..from + count, rows, columns, most);
                 for ranked in &self.ranked {
                     self.pairs[kept] = (row, ranked.1);
                     kept += 1;
@@ -94,15 +101,15 @@ impl OverlapSweep {
     }
 
     /// Puts the nearest partners of a row with too many, whose pairs are `range`, into `ranked`, by index.
-    fn rank(&mut self, range: std::ops::Range<usize>, rows: &[Rect], columns: &[Rect]) {
+    fn rank(&mut self, range: std::ops::Range<usize>, rows: &[Rect], columns: &[Rect], most: usize) {
         let of_row = &self.pairs[range];
         let row = of_row[0].0 as usize;
         self.ranked.clear();
         self.ranked.extend(of_row.iter().map(|pair| (distance(rows, columns, *pair), pair.1)));
         let by_distance = |a: &(f64, u32), b: &(f64, u32)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
-        self.ranked.select_nth_unstable_by(MOST_PER_ROW - 1, by_distance);
-        self.reach[row] = self.ranked[MOST_PER_ROW - 1];
-        self.ranked.truncate(MOST_PER_ROW);
+        self.ranked.select_nth_unstable_by(most - 1, by_distance);
+        self.reach[row] = self.ranked[most - 1];
+        self.ranked.truncate(most);
         self.ranked.sort_unstable_by_key(|ranked| ranked.1);
     }
 
@@ -179,13 +186,19 @@ mod tests {
                 let partners = (0..columns.len() as u32).filter(|c| rows[row as usize].iou(&columns[*c as usize]) > 0.0);
                 let mut ranked: Vec<_> = partners.map(|c| (distance(&rows, &columns, (row, c)), c)).collect();
                 ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-                ranked.truncate(MOST_PER_ROW);
+                ranked.truncate(LEAST_PER_ROW);
                 ranked.sort_by_key(|ranked| ranked.1);
                 expected.extend(ranked.iter().map(|ranked| (row, ranked.1)));
             }
             let mut sweep = OverlapSweep::default();
-            prop_assert_eq!(sweep.pairs(&rows, &columns), &expected[..]);
+            prop_assert_eq!(sweep.limited_pairs(&rows, &columns, LEAST_PER_ROW), &expected[..]);
         }
+    }
+
+    #[test]
+    fn up_to_a_thousand_boxes_have_all_their_partners() {
+        let rects = vec![Rect::new(0.0, 0.0, 10.0, 10.0); 1000];
+        assert_eq!(OverlapSweep::default().pairs(&rects, &rects).len(), 1_000_000);
     }
 
     #[test]
@@ -195,7 +208,7 @@ mod tests {
         let rows = [at(0.0), at(100.0), at(1000.0)];
         let columns: Vec<Rect> = (0..300).map(|i| at(i as f64)).collect();
         let mut sweep = OverlapSweep::default();
-        let pairs = sweep.pairs(&rows, &columns);
+        let pairs = sweep.limited_pairs(&rows, &columns, LEAST_PER_ROW);
         // 0..=31 for the first; for the second 100 and 15 to each side, and of 84 and 116, equally far, the first.
         let expected = (0..32).map(|c| (0, c)).chain((84..116).map(|c| (1, c)));
         assert_eq!(pairs, expected.collect::<Vec<(u32, u32)>>());
@@ -205,7 +218,7 @@ mod tests {
     fn memory_stays_bounded_where_everything_overlaps() {
         let rects = vec![Rect::new(0.0, 0.0, 10.0, 10.0); 3000];
         let mut sweep = OverlapSweep::default();
-        assert_eq!(sweep.pairs(&rects, &rects).len(), MOST_PER_ROW * 3000);
-        assert!(sweep.pairs.capacity() < 4 * 2 * MOST_PER_ROW * 3000, "{}", sweep.pairs.capacity());
+        assert_eq!(sweep.limited_pairs(&rects, &rects, LEAST_PER_ROW).len(), LEAST_PER_ROW * 3000);
+        assert!(sweep.pairs.capacity() < 4 * 2 * LEAST_PER_ROW * 3000, "{}", sweep.pairs.capacity());
     }
 }

@@ -39,9 +39,9 @@ impl Plane {
         let innovation = z - self.x;
         self.x += gain_x * innovation;
         self.v += gain_v * innovation;
-        self.vv -= gain_v * self.xv;
+        self.vv = symmetric(self.vv - gain_v * self.xv);
         self.xv -= gain_x * self.xv;
-        self.xx -= gain_x * self.xx;
+        self.xx = symmetric(self.xx - gain_x * self.xx);
     }
 
     /// Squared Mahalanobis distance of a measurement with variances `r`.
@@ -58,6 +58,8 @@ impl Plane {
         for block in [&mut self.xx, &mut self.xv, &mut self.vv] {
             *block = map * *block * back;
         }
+        self.xx = symmetric(self.xx);
+        self.vv = symmetric(self.vv);
     }
 
     /// Of a singular matrix there is no inverse; the numbers that come out are then not finite, as with a division by
@@ -67,6 +69,12 @@ impl Plane {
         let determinant = s.m11 * s.m22 - s.m12 * s.m21;
         Matrix2::new(s.m22, -s.m12, -s.m21, s.m11) / determinant
     }
+}
+
+/// Rounding makes a covariance a little less than symmetric, and what is left of that would grow from frame to frame.
+fn symmetric(m: Matrix2<f64>) -> Matrix2<f64> {
+    let across = 0.5 * (m.m12 + m.m21);
+    Matrix2::new(m.m11, across, across, m.m22)
 }
 
 #[cfg(test)]
@@ -101,6 +109,20 @@ mod tests {
         }
         assert!(near(&axis(&plane, 0), &axes[0]) && near(&axis(&plane, 1), &axes[1]), "{plane:?} {axes:?}");
         assert_eq!((plane.xx.m12, plane.xv.m12, plane.vv.m12), (0.0, 0.0, 0.0));
+    }
+
+    /// `tests/long_run.rs` shows what comes of it otherwise.
+    #[test]
+    fn the_covariance_stays_symmetric() {
+        let mut plane = Plane::new(Vector2::new(10.0, 20.0), Vector2::new(4.0, 9.0), Vector2::new(1.0, 0.5));
+        let turn = Matrix2::new(1.0, -0.3, 0.3, 0.9);
+        for frame in 0..20 {
+            plane.predict(1.0, Vector2::new(2.0, 1.0), Vector2::new(0.2, 0.1));
+            plane.turn(&turn);
+            plane.correct(Vector2::new(-19.0, 12.0), Vector2::new(3.0, 2.0));
+            assert_eq!((plane.xx.m12, plane.vv.m12), (plane.xx.m21, plane.vv.m21), "frame {frame}");
+        }
+        assert!(plane.xx.m12 != 0.0);
     }
 
     #[test]

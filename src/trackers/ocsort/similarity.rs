@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::parameters::Similarity;
 use crate::geometry::{Rect, State};
-use crate::trackers::sort_family::FullAssociation;
+use crate::trackers::sort_family::{FullAssociation, too_many};
 
 /// Begins an association of detections with tracks by this measure.
 pub fn begin(
@@ -20,6 +20,10 @@ pub fn begin(
         Similarity::Giou => giou,
         Similarity::Diou => diou,
         Similarity::Ciou => ciou,
+        // Of absurdly many pairs there is no looking for the farthest.
+        Similarity::CentreDistance if too_many(detections.len(), tracks.len()) => {
+            return association.begin(detections, tracks, threshold, allowed);
+        }
         Similarity::CentreDistance => {
             let pairs = detections.clone().flat_map(|d| tracks.clone().map(move |t| centre_distance(&d, &t)));
             let largest = pairs.fold(0.0, f64::max);

@@ -5,7 +5,7 @@
 //! of overlapping pairs is part of the optimum and the others need not be looked at. Where something is added to the
 //! IoU, [`FullAssociation::best_sum`] looks at the pairs that can matter.
 
-use crate::assignment::{Assignment, Edge, UNMATCHED};
+use crate::assignment::{Assignment, Edge, UNMATCHED, refill};
 use crate::geometry::Rect;
 use crate::trackers::overlaps::{Extent, Overlap, Overlaps, fill_edges};
 
@@ -15,6 +15,11 @@ const LEFT_OUT: f64 = 1e3;
 /// Most pairs looked at besides those that overlap. No scene has that many, but hostile input has, and all its pairs
 /// do not fit into memory.
 const MOST_EXTRA: usize = 1 << 22;
+
+/// Whether there are too many pairs to look at them all.
+pub fn too_many(detections: usize, tracks: usize) -> bool {
+    detections.saturating_mul(tracks) > MOST_EXTRA
+}
 
 /// The association of detections (rows) with tracks (columns), with buffers that are reused from call to call.
 #[derive(Default)]
@@ -60,7 +65,7 @@ impl FullAssociation {
         threshold: f64,
         allowed: impl Fn(u32, u32) -> bool,
     ) {
-        if detections.len().saturating_mul(tracks.len()) > MOST_EXTRA {
+        if too_many(detections.len(), tracks.len()) {
             return self.begin(detections, tracks, threshold, allowed);
         }
         self.pairs.clear();
@@ -175,11 +180,6 @@ impl FullAssociation {
             }
         }
     }
-}
-
-fn refill<T: Copy>(buffer: &mut Vec<T>, length: usize, value: T) {
-    buffer.clear();
-    buffer.resize(length, value);
 }
 
 #[cfg(test)]

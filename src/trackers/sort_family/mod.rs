@@ -4,7 +4,7 @@
 mod full_association;
 mod run;
 
-pub use full_association::FullAssociation;
+pub use full_association::{FullAssociation, too_many};
 pub use run::Run;
 
 use crate::track::{Output, Track};

@@ -35,7 +35,8 @@ macro_rules! two_round_parameters {
                 fuse_score: bool = true, [], "", "";
                 /// Of a tracked and a lost track with a smaller 1 - IoU the one of the shorter life is dropped.
                 duplicate_thresh: f64 = 0.15, [0.0, 1.0], "", "";
-                /// Whether tracks go along with the camera, where its motion is given.
+                /// Whether tracks go along with the camera, where its motion is given. With bytetrack not in the
+                /// publication.
                 use_camera_motion: bool = $use_camera_motion, [], "", "";
                 $($own)*
             }
