@@ -91,17 +91,18 @@ fn who_disappears_is_listed_as_lost_where_it_is_predicted_and_found_again() {
     for_all(|algorithm, name| {
         let mut tracker = tracker(algorithm, patient(algorithm));
         let mut walkers = three();
-        walkers[0] = walkers[0].clone().hidden(2.0, 2.4);
+        // For 24 frames: GenTrack2 reports the predicted boxes of the first 20.
+        walkers[0] = walkers[0].clone().hidden(2.0, 2.8);
         let (mut id, mut lost_frames, mut before) = (0, 0, f64::NEG_INFINITY);
-        play(&mut tracker, &walkers, 0..90, 1, |index, output| {
+        play(&mut tracker, &walkers, 0..100, 1, |index, output| {
             let truth = walkers[0].at(frame_time(index));
             match index {
                 0..60 => id = nearest(output, &truth).unwrap().id,
-                60..72 => {
+                60..84 => {
                     let track = find(output, id).unwrap_or_else(|| panic!("{name}: gone in frame {index}"));
                     assert_eq!(track.state, TrackState::Lost, "{name}: frame {index}");
                     assert_eq!(track.frames_since_match as usize, index - 59, "{name}");
-                    assert!(track.rect.left > before + 1.0, "{name}: frame {index}: stands still");
+                    assert!(track.rect.left > before + 0.5, "{name}: frame {index}: stands still");
                     assert!(distance(&track.rect, &truth) < 6.0, "{name}: frame {index}: {track:?}, not {truth:?}");
                     before = track.rect.left;
                     lost_frames += usize::from(output.lost.iter().any(|t| t.id == id));
@@ -110,7 +111,7 @@ fn who_disappears_is_listed_as_lost_where_it_is_predicted_and_found_again() {
             }
         });
         // Some report the first predictions; whoever reports longer than this must have good reasons.
-        assert!(lost_frames >= 1, "{name}: listed as lost in {lost_frames} of 12 frames");
+        assert!(lost_frames >= 1, "{name}: listed as lost in {lost_frames} of 24 frames");
         assert_eq!(live(tracker.output()).count(), 3, "{name}");
         assert_eq!(find(tracker.output(), id).unwrap().state, TrackState::Confirmed, "{name}");
     });

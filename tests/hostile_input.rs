@@ -391,7 +391,8 @@ for_every_algorithm! {
                 time += 33_333_333;
                 watched.step(&Frame { timestamp_ns: Some(time), ..Frame::new(&[]) });
             }
-            for t in 0..20 {
+            // They start over; where they were before, nobody is reported for longer than predictions are.
+            for t in 0..30 {
                 time += 33_333_333;
                 watched.step(&Frame { timestamp_ns: Some(time), ..Frame::new(&walkers(t)) });
             }

@@ -147,6 +147,12 @@ fn setups(algorithm: Algorithm) -> Vec<Setup> {
             // Somebody is lost for more than a second.
             new(hidden(), NOTHING, &[("entrance_areas", "0,0,768,576"), ("fitness_floor", "0")]),
             new(hidden(), IMAGE, &[("preset", "paper")]),
+            // Nobody moves as predicted, and the gates are narrow.
+            new(camera(stage::SHAKE), NOTHING, &[]),
+            new(camera(stage::SHAKE), CAMERA, &[]),
+            new(crowd(), NOTHING, &[("cost_gate", "0.15")]),
+            new(crowd(), EMBEDDINGS, &[("cost_gate", "0.1"), ("min_iou", "0.02")]),
+            new(hidden(), NOTHING, &[("reacquire_reach", "0")]),
         ]),
         Algorithm::OcSort => {
             setups.extend(given_more);

@@ -22,9 +22,10 @@ pub fn age(p: &GenTrack2Parameters, target: &mut Target, beside_strong: bool, ti
 }
 
 /// How fast time without a match passes for a track of whose box a strong track covers the given share: slower the
-/// more is covered, for a hidden target cannot be detected.
-pub fn pace(p: &GenTrack2Parameters, covered: f64) -> f64 {
-    1.0 - (1.0 - p.covered_pace) * covered
+/// more is covered, for a hidden target cannot be detected; faster outside the image, where it will hardly come back.
+pub fn pace(p: &GenTrack2Parameters, covered: f64, outside: bool) -> f64 {
+    let hidden = 1.0 - (1.0 - p.covered_pace) * covered;
+    if outside { hidden * p.outside_pace } else { hidden }
 }
 
 /// `1 - exp(-l^2 / (2 sigma^2))`.
@@ -107,10 +108,17 @@ mod tests {
     #[test]
     fn time_passes_slower_behind_another_target() {
         let p = GenTrack2Parameters { covered_pace: 0.2, ..parameters() };
-        assert_eq!(pace(&p, 0.0), 1.0);
-        assert!((pace(&p, 1.0) - 0.2).abs() < 1e-12);
+        assert_eq!(pace(&p, 0.0, false), 1.0);
+        assert!((pace(&p, 1.0, false) - 0.2).abs() < 1e-12);
         // Half covered: half-way between 1 and .2.
-        assert!((pace(&p, 0.5) - 0.6).abs() < 1e-12);
+        assert!((pace(&p, 0.5, false) - 0.6).abs() < 1e-12);
+    }
+
+    #[test]
+    fn time_passes_faster_outside_the_image() {
+        let p = GenTrack2Parameters { covered_pace: 0.2, outside_pace: 3.0, ..parameters() };
+        assert_eq!(pace(&p, 0.0, true), 3.0);
+        assert!((pace(&p, 0.5, true) - 1.8).abs() < 1e-12);
     }
 
     #[test]

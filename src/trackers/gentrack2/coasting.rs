@@ -80,7 +80,7 @@ mod tests {
 
     #[test]
     fn predictable_tracks_are_reported_longer() {
-        let p = GenTrack2Parameters::default();
+        let p = GenTrack2Parameters { coast_residual: 0.1, ..Default::default() };
         let (scene, record) = (SceneResidual::default(), CoastRecord::default());
         let reported = |missed, hits| is_reported(&p, &lost(missed, hits), &scene, &record);
         assert!(reported(1, 1));

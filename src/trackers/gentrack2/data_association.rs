@@ -117,7 +117,14 @@ fn motion_part(p: &GenTrack2Parameters, target: &Target, observed: &Observed, sc
     }
     let foot = (target.predicted.v + 0.5 * target.predicted.h) - (observed.state.v + 0.5 * observed.state.h);
     let foot = (foot.abs() / observed.state.h).min(1.0);
-    Some(total_cost(p, motion, detection.score, target.penalty) + p.lambda_foot * foot)
+    let softened = motion * softness(p, target, scene);
+    let lost = p.lost_cost * (target.missed - p.lost_cost_after).max(0.0);
+    Some(
+        total_cost(p, softened, detection.score, target.penalty)
+            + p.lambda_foot * foot
+            + p.crowd_cost * observed.crowd
+            + lost,
+    )
 }
 
 /// Eq. 7 from the particle-averaged motion cost.
@@ -137,6 +144,11 @@ fn distance_scale(p: &GenTrack2Parameters, target: &Target, scene: &SceneResidua
         return p.distance_scale_max;
     }
     (p.distance_scale_gain * target.residual.value(scene)).clamp(p.distance_scale_min, p.distance_scale_max)
+}
+
+/// What is left of the motion cost of a track whose motion is hard to predict: it says the less about who is who.
+fn softness(p: &GenTrack2Parameters, target: &Target, scene: &SceneResidual) -> f64 {
+    (p.soft_residual / target.residual.value(scene)).clamp(p.soft_least, 1.0)
 }
 
 /// IoU, with `height_overlap` times the square root of the overlap of the vertical extents: people side by side have
@@ -192,7 +204,7 @@ mod tests {
     use crate::frame::{Detection, Frame};
 
     fn literal() -> GenTrack2Parameters {
-        GenTrack2Parameters { height_overlap: false, lambda_foot: 0.0, ..Default::default() }
+        GenTrack2Parameters { height_overlap: false, lambda_foot: 0.0, soft_least: 1.0, ..Default::default() }
     }
 
     fn target_at(state: State, particles: &[State]) -> Target {
@@ -251,6 +263,43 @@ mod tests {
         let without = GenTrack2Parameters { lambda_foot: 0.0, ..p };
         let without = motion_part(&without, &target, observations.get(0), &SceneResidual::default()).unwrap();
         assert!((with - without - 0.2 * 4.0 / 48.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn motion_counts_less_where_it_is_unpredictable() {
+        // The scene's residual is .08 of the diagonal: .04/.08 of the motion cost is left, or the least.
+        let p = GenTrack2Parameters { soft_residual: 0.04, soft_least: 0.3, ..literal() };
+        let target = target_at(State::new(0.0, 0.0, 30.0, 40.0), &[]);
+        assert!((softness(&p, &target, &SceneResidual::default()) - 0.5).abs() < 1e-12);
+        let p = GenTrack2Parameters { soft_residual: 0.01, ..p };
+        assert_eq!(softness(&p, &target, &SceneResidual::default()), 0.3);
+        let p = GenTrack2Parameters { soft_residual: 1.0, ..p };
+        assert_eq!(softness(&p, &target, &SceneResidual::default()), 1.0);
+    }
+
+    #[test]
+    fn crowds_and_long_losses_cost() {
+        let state = State::new(0.0, 0.0, 30.0, 40.0);
+        let mut target = target_at(state, &[state]);
+        let cost = |p: &GenTrack2Parameters, target: &Target| {
+            // Another one 15 px beside: IoU 1/3.
+            let beside = State::new(15.0, 0.0, 30.0, 40.0);
+            let detections = [
+                Detection::new(-15.0, -20.0, 30.0, 40.0, 1.0),
+                Detection { rect: beside.into(), score: 0.9, ..Default::default() },
+            ];
+            let mut observations = Observations::default();
+            observations.prepare(&Frame::new(&detections), 0.0);
+            motion_part(p, target, observations.get(0), &SceneResidual::default()).unwrap()
+        };
+        let p = GenTrack2Parameters { crowd_cost: 0.0, lost_cost: 0.0, doubt_score: 0.0, ..literal() };
+        assert_eq!(cost(&p, &target), 0.0);
+        let crowded = GenTrack2Parameters { crowd_cost: 0.3, ..p.clone() };
+        assert!((cost(&crowded, &target) - 0.1).abs() < 1e-12);
+        // 5 ticks beyond 10.
+        target.missed = 15.0;
+        let lost = GenTrack2Parameters { lost_cost: 0.02, lost_cost_after: 10.0, ..p };
+        assert!((cost(&lost, &target) - 0.1).abs() < 1e-12);
     }
 
     #[test]

@@ -7,7 +7,7 @@
 //! | particle sampling, eq. 3 | [`particle_sampling`] |
 //! | swarm guidance, eq. 4-6 | [`swarm`], [`fitness`], [`resampling`] |
 //! | data association, eq. 7-8 | [`data_association`], [`observations`], [`residual`] |
-//! | strong tracks, eq. 9 | [`strong_update`], [`appearance_model`] |
+//! | strong tracks, eq. 9 | [`strong_update`], [`whiteness`], [`appearance_model`] |
 //! | new tracks, eq. 10 | [`new_tracks`], [`reacquisition`] |
 //! | weak tracks, eq. 11-14 | [`weak_motion`], [`common_motion`], [`ageing`], [`covering`] |
 //! | removal, eq. 15 | [`removal`] |
@@ -36,6 +36,7 @@ mod swarm;
 mod target;
 mod velocity_regression;
 mod weak_motion;
+mod whiteness;
 
 pub use parameters::*;
 
@@ -59,6 +60,7 @@ use swarm::{SEARCH_MARGIN, Swarm};
 use target::{Match, Target};
 use velocity_regression::{Reach, VelocityRegression};
 use weak_motion::TrustedMedian;
+use whiteness::{Trust, Whiteness};
 
 /// Ticks in a second: the unit of time of all parameters.
 const TICKS_PER_SECOND: f64 = 30.0;
@@ -78,6 +80,7 @@ struct Memory {
     /// Now, in ticks since the first frame.
     time: f64,
     scene: SceneResidual,
+    whiteness: Whiteness,
     record: CoastRecord,
 }
 
@@ -169,28 +172,37 @@ impl GenTrack2 {
 
     fn update_strong(&mut self, frame: &Frame<'_>, ticks: f64) {
         let (p, work, memory) = (&self.parameters, &mut self.work, &mut self.memory);
+        let trust = memory.whiteness.trust(p);
         for target in &mut memory.targets {
             let Some(index) = target.matched.index() else { continue };
             let observed = work.observations.get(index);
             let (row, detection, detected) = (observed.row, observed.detection, observed.state);
+            let telling = residual::is_telling(target, &detection);
+            let error = telling.then(|| residual::error(&target.predicted, &detected));
             if target.missed > 0.0 {
                 memory.record.found(target, &detection.rect);
-            } else if residual::is_telling(target, &detection) {
-                target.residual.learn(&mut memory.scene, &target.predicted, &detected);
             }
-            strong_update::update(p, target, row, &detection);
+            if let Some(error) = &error {
+                target.residual.learn(&mut memory.scene, error);
+                if let Some(before) = &target.last_error {
+                    memory.whiteness.learn(before, error);
+                }
+            }
+            target.last_error = error;
+            strong_update::update(p, target, row, &detection, &trust);
             work.learn(p, target, index, frame, memory.time, ticks);
         }
     }
 
     /// `since_detector` is 0 if the detector did not run.
-    fn update_weak(&mut self, ticks: f64, since_detector: f64, camera_known: bool) {
+    fn update_weak(&mut self, frame: &Frame<'_>, ticks: f64, since_detector: f64) {
         let (p, work, targets) = (&self.parameters, &mut self.work, &mut self.memory.targets);
         let (neighbours, states) = (&work.neighbours, &work.states);
         let lonely = |i: usize| !targets[i].is_strong() && neighbours.of(i).is_empty();
         work.expanded.search(states, p.neighbour_radius_expanded, lonely);
         let covered = work.covering.shares(targets);
-        let shift = if p.common_motion && !camera_known { work.common_motion.shift(targets) } else { (0.0, 0.0) };
+        let guess_motion = p.common_motion && frame.camera_motion.is_none();
+        let shift = if guess_motion { work.common_motion.shift(targets) } else { (0.0, 0.0) };
         for index in 0..targets.len() {
             if targets[index].is_strong() {
                 continue;
@@ -206,7 +218,8 @@ impl GenTrack2 {
             target.state.v += shift.1;
             target.covered = target.covered.max(covered[index]);
             if since_detector > 0.0 {
-                let blamed = since_detector * ageing::pace(p, covered[index]);
+                let blamed =
+                    since_detector * ageing::pace(p, covered[index], removal::is_outside(target, frame.size()));
                 target.missed += since_detector;
                 target.blamed += blamed;
                 target.missed_frames = target.missed_frames.saturating_add(1);
@@ -238,14 +251,15 @@ impl GenTrack2 {
                 let target = &mut memory.targets[found];
                 memory.record.found(target, &detection.rect);
                 target.restart_motion(&detection, index);
-                strong_update::update(p, target, row, &detection);
+                strong_update::update(p, target, row, &detection, &Trust::NOMINAL);
                 work.learn(p, target, index as usize, frame, memory.time, ticks);
                 continue;
             }
             let mut target = work.spare.pop().unwrap_or_else(Target::blank);
             let life = Life::begin(context.ids.take(), row, &detection);
             target.begin(life, index, context.seed, p.particles as usize);
-            target.confirmed = context.detector_frames == 1 || p.confirm_hits <= 1;
+            strong_update::weigh_evidence(p, &mut target);
+            target.confirmed |= context.detector_frames == 1;
             work.learn(p, &mut target, index as usize, frame, memory.time, ticks);
             memory.targets.push(target);
         }
@@ -254,9 +268,12 @@ impl GenTrack2 {
     fn remove_expired(&mut self, frame_size: Option<(u32, u32)>, output: &mut Output) {
         let (p, work, memory) = (&self.parameters, &mut self.work, &mut self.memory);
         let record = &mut memory.record;
-        let ended = memory.targets.extract_if(.., |t| removal::is_expired(p, t, frame_size));
+        let ended = memory.targets.extract_if(.., |t| removal::is_expired(p, t));
         work.spare.extend(ended.inspect(|target| {
-            record.gone(p, target);
+            // Who went out of the image says nothing about predictions within.
+            if !removal::is_outside(target, frame_size) {
+                record.gone(p, target);
+            }
             output.ended.push(target.life.id);
         }));
     }
@@ -277,6 +294,8 @@ impl GenTrack2 {
 
 impl TrackingAlgorithm for GenTrack2 {
     fn step(&mut self, frame: &Frame<'_>, context: &mut StepContext<'_>, output: &mut Output) {
+        let frame =
+            &Frame { camera_motion: frame.camera_motion.filter(|_| self.parameters.use_camera_motion), ..*frame };
         let ticks_per_frame = TICKS_PER_SECOND / context.frame_rate;
         let ticks = context.elapsed * ticks_per_frame;
         let detector_ran = !frame.detector_skipped;
@@ -288,7 +307,7 @@ impl TrackingAlgorithm for GenTrack2 {
             self.update_strong(frame, ticks);
         }
         let since_detector = if detector_ran { context.since_detector * ticks_per_frame } else { 0.0 };
-        self.update_weak(ticks, since_detector, frame.camera_motion.is_some());
+        self.update_weak(frame, ticks, since_detector);
         if detector_ran {
             self.start_tracks(frame, context, ticks);
         }

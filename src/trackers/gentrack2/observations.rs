@@ -2,12 +2,16 @@
 //! caller's, with what they look like.
 
 use crate::appearance::{Descriptor, HogWorkspace};
+use crate::candidates::OverlapSweep;
 use crate::embedding::UnitRows;
 use crate::frame::{Detection, Frame};
 use crate::geometry::{Rect, State};
 use crate::image::ImageView;
 
 use super::removal::SMALLEST;
+
+/// Score above which a detection counts as somebody else beside another one.
+const SURE: f64 = 0.3;
 
 /// One usable detection.
 #[derive(Clone, Debug)]
@@ -18,6 +22,8 @@ pub struct Observed {
     pub detection: Detection,
     /// Its box as a state.
     pub state: State,
+    /// The largest IoU with another detection of the frame that is sure enough.
+    pub crowd: f64,
     look: Look,
 }
 
@@ -33,6 +39,8 @@ enum Look {
 #[derive(Clone, Debug, Default)]
 pub struct Observations {
     list: Vec<Observed>,
+    boxes: Vec<Rect>,
+    sweep: OverlapSweep,
     // By index; valid where the look is `Seen`.
     descriptors: Vec<Descriptor>,
     embeddings: UnitRows,
@@ -50,6 +58,7 @@ impl Observations {
             row: row as u32,
             detection: *d,
             state: State::from(d.rect),
+            crowd: 0.0,
             look: Look::NotYet,
         }));
         self.list.sort_unstable_by(|a, b| {
@@ -58,7 +67,19 @@ impl Observations {
             let rest = |o: &Observed| (o.detection.class_id, o.detection.tag, o.row);
             boxes.unwrap_or_else(|| rest(a).cmp(&rest(b)))
         });
+        self.measure_crowd();
         self.embeddings.fill(frame.embeddings.as_ref(), frame.detections.len());
+    }
+
+    fn measure_crowd(&mut self) {
+        self.boxes.clear();
+        self.boxes.extend(self.list.iter().map(|o| o.detection.rect));
+        for &(a, b) in self.sweep.pairs(&self.boxes, &self.boxes).iter().filter(|(a, b)| a != b) {
+            let (iou, sure) =
+                (self.boxes[a as usize].iou(&self.boxes[b as usize]), self.list[b as usize].detection.score > SURE);
+            let crowd = &mut self.list[a as usize].crowd;
+            *crowd = if sure { crowd.max(iou) } else { *crowd };
+        }
     }
 
     /// How many there are.

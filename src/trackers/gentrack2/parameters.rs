@@ -159,18 +159,29 @@ parameters! {
         /// Multiply the IoU by the square root of the overlap of the boxes' vertical extents.
         height_overlap: bool = true, [], "", "";
         /// Distance cost scale in mean diagonals of track and detection: the smallest ...
-        distance_scale_min: f64 = 0.4, [0.01, 10.0], "box diagonals", "d_o,d";
+        distance_scale_min: f64 = 0.38, [0.01, 10.0], "box diagonals", "d_o,d";
         /// ... and the largest; in between it is `distance_scale_gain` times the track's prediction residual.
         distance_scale_max: f64 = 1.0, [0.01, 10.0], "box diagonals", "d_o,d";
         /// Prediction residuals per distance scale.
-        distance_scale_gain: f64 = 6.0, [0.0, 100.0], "", "";
+        distance_scale_gain: f64 = 7.5, [0.0, 100.0], "", "";
+        /// Residual, in box diagonals, from which on the motion cost counts less, in proportion: where targets move
+        /// unpredictably it says less about who is who ...
+        soft_residual: f64 = 0.065, [0.001, 10.0], "box diagonals", "";
+        /// ... but never less than this share of it. 1 is the paper's text.
+        soft_least: f64 = 0.5, [0.0, 1.0], "", "";
+        /// Cost of a detection that overlaps another, times their IoU: in a crowd a box fits several targets.
+        crowd_cost: f64 = 0.05, [0.0, 2.0], "", "";
+        /// Cost per tick of a track's time without a match, ...
+        lost_cost: f64 = 0.006, [0.0, 1.0], "per tick", "";
+        /// ... beyond this time.
+        lost_cost_after: f64 = 10.0, [0.0, 1e6], "ticks", "";
         /// Largest cost of an admissible pair, and the price of leaving a track unmatched.
         cost_gate: f64 = 0.3, [0.0, 2.0], "", "";
         /// Smallest (height-aware) IoU of prediction and detection of an admissible pair. With 0 pairs that do not
         /// overlap are admissible, up to the distance scale.
         min_iou: f64 = 0.1, [0.0, 1.0], "", "";
         /// Detections below this score are ignored.
-        min_score: f64 = 0.05, [0.0, 1.0], "", "";
+        min_score: f64 = 0.1, [0.0, 1.0], "", "";
         /// Detections below this score are low ...
         low_score: f64 = 0.6, [0.0, 1.0], "", "";
         /// ... and admissible only up to this motion cost.
@@ -184,14 +195,19 @@ parameters! {
         /// Smallest score of a detection that starts a track.
         birth_score: f64 = 0.7, [0.0, 1.0], "", "";
         /// No birth where a track matched or born in this frame overlaps by more than this IoU; 1 turns it off.
-        birth_iou: f64 = 0.5, [0.0, 1.0], "", "";
+        birth_iou: f64 = 0.51, [0.0, 1.0], "", "";
         /// Before a detection starts a track, targets that went out of sight behind another are asked whether it is one
         /// of them: it is if its distance from where they were last seen is within their speed, times this, times the
         /// time they were gone. 0 turns it off.
-        reacquire_reach: f64 = 0.7, [0.0, 100.0], "", "";
+        reacquire_reach: f64 = 0.5, [0.0, 100.0], "", "";
         /// Matches in a row, the birth counted, from which a track is confirmed. Births in the first frame are
         /// confirmed at once.
         confirm_hits: i64 = 3, [1, 100], "hits", "";
+        /// Evidence that a track needs to be confirmed besides: what its detections' scores exceed evidence_score by,
+        /// added up.
+        confirm_evidence: f64 = 0.9, [0.0, 100.0], "", "";
+        /// Score that is no evidence.
+        evidence_score: f64 = 0.5, [0.0, 1.0], "", "";
 
         // Strong updates (eq. 9).
         /// How a matched track takes its detection.
@@ -200,6 +216,12 @@ parameters! {
         blend_centre: f64 = 0.7, [0.0, 1.0], "", "";
         /// Weight of a detection of score 1 in the blended size.
         blend_size: f64 = 0.6, [0.0, 1.0], "", "";
+        /// How much the two weights adapt to the detector: they grow by this much times the correlation of successive
+        /// prediction errors beyond usual_correlation, for errors that point the same way show that the blend lags
+        /// behind, and alternating ones that it follows the detector's noise. 0: not at all.
+        blend_adaptation: f64 = 0.9, [0.0, 5.0], "", "";
+        /// The correlation at which the weights are as they stand.
+        usual_correlation: f64 = 0.4, [-1.0, 1.0], "", "";
         /// Distance from the previous state from which a detection is taken half-way only.
         jump_distance: f64 = 1.0, [0.0, 100.0], "box diagonals", "d_o";
         /// Penalty of a match with a detection of score 0; it falls to 0 at score 1. 0 is the paper's text.
@@ -222,9 +244,8 @@ parameters! {
         /// Where the frame brings no camera motion, carry weak tracks along with the shift that strong tracks share
         /// beyond their own velocities.
         common_motion: bool = true, [], "", "";
-        /// Age at which a weak track ends. With the other defaults an uncovered one gets there after 29 ticks without a
-        /// match, so who wants longer lives raises `max_missed` too.
-        max_age: f64 = 100.0, [1.0, 1e6], "ticks", "partial_max";
+        /// Age at which a weak track ends. With the other defaults max_missed comes first.
+        max_age: f64 = 400.0, [1.0, 1e6], "ticks", "partial_max";
         /// History fitness of the global best where there is no image to tell.
         blind_fitness: f64 = 0.9, [0.0, 1.0], "", "f_g,PSO^h";
         /// Least history fitness that ageing reckons with where there is an image: a hidden target looks like what
@@ -233,18 +254,20 @@ parameters! {
         /// History fitness from which a weak track beside a strong one recovers instead of ageing; 1 turns
         /// recovery off. Needs an image.
         recovery_threshold: f64 = 1.0, [0.0, 1.0], "", "rho_re";
-        /// Time without a match, at the pace of `covered_pace`, after which a track ends whatever its age. To lengthen
-        /// lives raise `max_age` too.
-        max_missed: f64 = 30.0, [0.0, 1e6], "ticks", "";
+        /// Time without a match, at the paces below, after which a track ends whatever its age.
+        max_missed: f64 = 40.0, [0.0, 1e6], "ticks", "";
         /// Pace at which time without a match passes for a weak track that is wholly behind a strong one; 1 for one
         /// in the open, in proportion in between. 1 is the paper's text.
         covered_pace: f64 = 0.5, [0.0, 1.0], "", "";
+        /// The same for one whose centre is outside the image (where its size is known), which will hardly come back.
+        outside_pace: f64 = 2.0, [0.0, 1000.0], "", "";
         /// Places where targets enter and leave: weak tracks centred in them age faster.
         entrance_areas: Vec<Rect> = Vec::new(), [], "px", "";
         /// How much faster.
         entrance_penalty: f64 = 0.5, [0.0, 1.0], "", "Delta_e";
-        /// End tracks whose centre leaves the image (where its size is known).
-        end_outside: bool = true, [], "", "";
+
+        /// Whether targets go along with the camera, where its motion is given.
+        use_camera_motion: bool = true, [], "", "";
 
         // Velocity regression (eq. 16).
         /// Past states used.
@@ -265,11 +288,11 @@ parameters! {
         /// Frames without a match for which a confirmed track is still reported.
         report_missed: i64 = 1, [0, 1000], "frames", "";
         /// The same for tracks whose motion has proved predictable.
-        coast: f64 = 10.0, [0.0, 1e6], "ticks", "";
+        coast: f64 = 20.0, [0.0, 1e6], "ticks", "";
         /// Matches such a track must have had.
         coast_hits: i64 = 10, [0, 1_000_000], "hits", "";
         /// Largest prediction residual of such a track, growing by a tenth per tick without a match.
-        coast_residual: f64 = 0.1, [0.0, 10.0], "box diagonals", "";
+        coast_residual: f64 = 0.14, [0.0, 10.0], "box diagonals", "";
         /// Smallest share of past predictions of lost tracks that proved right for coasting to go on.
         coast_success: f64 = 0.5, [0.0, 1.0], "", "";
     }
@@ -298,6 +321,7 @@ impl GenTrack2Parameters {
                 lambda_p: 0.8,
                 lambda_foot: 0.0,
                 height_overlap: false,
+                distance_scale_min: 0.4,
                 distance_scale_max: 0.4,
                 min_iou: 0.0,
                 min_score: 0.0,
@@ -314,8 +338,14 @@ impl GenTrack2Parameters {
                 sigma_g: 0.3,
                 fitness_floor: 0.0,
                 covered_pace: 1.0,
+                max_age: 100.0,
                 max_missed: 1e6,
-                end_outside: false,
+                outside_pace: 1.0,
+                soft_least: 1.0,
+                crowd_cost: 0.0,
+                lost_cost: 0.0,
+                confirm_evidence: 0.0,
+                blend_adaptation: 0.0,
                 epsilon_s: 0.05,
                 common_motion: false,
                 recovery_threshold: 0.8,

@@ -1,4 +1,4 @@
-//! Removal of expired tracks (eq. 15) and of those that have left.
+//! Removal of expired tracks (eq. 15); which tracks are outside the image.
 
 use super::parameters::GenTrack2Parameters;
 use super::target::Target;
@@ -9,13 +9,12 @@ const LARGEST: f64 = 1e13;
 pub const SMALLEST: f64 = 1e-6;
 
 /// Whether a target's life ends in this frame.
-pub fn is_expired(p: &GenTrack2Parameters, target: &Target, frame_size: Option<(u32, u32)>) -> bool {
+pub fn is_expired(p: &GenTrack2Parameters, target: &Target) -> bool {
     let unconfirmed_miss = !target.confirmed && target.missed > 0.0;
     // Eq. 15.
     let aged = target.age >= p.max_age;
     let missed = target.blamed > p.max_missed;
-    let left = p.end_outside && !target.is_strong() && is_outside(target, frame_size);
-    unconfirmed_miss || aged || missed || left || !is_sane(target)
+    unconfirmed_miss || aged || missed || !is_sane(target)
 }
 
 /// Whether the centre lies outside the frame.
@@ -49,33 +48,21 @@ mod tests {
         let p = GenTrack2Parameters { max_age: 60.0, ..Default::default() };
         let mut target = weak(5.0);
         target.age = 59.9;
-        assert!(!is_expired(&p, &target, None));
+        assert!(!is_expired(&p, &target));
         target.age = 60.0;
-        assert!(is_expired(&p, &target, None));
+        assert!(is_expired(&p, &target));
     }
 
     #[test]
     fn misses_end_tracks_at_the_limit_and_tentative_ones_at_once() {
         let p = GenTrack2Parameters { max_missed: 30.0, ..Default::default() };
-        assert!(!is_expired(&p, &weak(30.0), None));
-        assert!(is_expired(&p, &weak(31.0), None));
+        assert!(!is_expired(&p, &weak(30.0)));
+        assert!(is_expired(&p, &weak(31.0)));
         let mut young = weak(1.0);
         young.confirmed = false;
-        assert!(is_expired(&p, &young, None));
+        assert!(is_expired(&p, &young));
         young.missed = 0.0;
-        assert!(!is_expired(&p, &young, None));
-    }
-
-    #[test]
-    fn weak_tracks_end_when_their_centre_leaves_the_image() {
-        let p = GenTrack2Parameters::default();
-        let mut target = weak(1.0);
-        target.state.u = -1.0;
-        assert!(is_expired(&p, &target, Some((100, 100))));
-        assert!(!is_expired(&p, &target, None));
-        // A detection says that it is still there.
-        target.matched = Match::Detection(0);
-        assert!(!is_expired(&p, &target, Some((100, 100))));
+        assert!(!is_expired(&p, &young));
     }
 
     #[test]
@@ -84,7 +71,7 @@ mod tests {
         for (u, w) in [(f64::NAN, 10.0), (1e14, 10.0), (0.0, 0.0), (0.0, 1e-7), (0.0, f64::INFINITY)] {
             let mut target = weak(1.0);
             (target.state.u, target.state.w) = (u, w);
-            assert!(is_expired(&p, &target, None), "{u} {w}");
+            assert!(is_expired(&p, &target), "{u} {w}");
         }
     }
 }

@@ -37,11 +37,10 @@ impl Default for SceneResidual {
 }
 
 impl Residual {
-    /// Learns from a prediction and the detection that it met.
-    pub fn learn(&mut self, scene: &mut SceneResidual, predicted: &State, detected: &State) {
-        let diagonal = 0.5 * (predicted.diagonal() + detected.diagonal());
-        let error = predicted.distance(detected) / diagonal;
-        let square = (error * error).min(LARGEST_SQUARE);
+    /// Learns from the error of a prediction.
+    pub fn learn(&mut self, scene: &mut SceneResidual, error: &State) {
+        let size = error.norm();
+        let square = (size * size).min(LARGEST_SQUARE);
         let rate = TRACK_RATE.max(1.0 / (self.count + 1) as f64);
         self.mean_square += rate * (square - self.mean_square);
         self.count = (self.count + 1).min(TRACK_MEMORY);
@@ -53,6 +52,11 @@ impl Residual {
         let (own, shared) = (self.count as f64, TRACK_MEMORY as f64);
         ((own * self.mean_square + shared * scene.0) / (own + shared)).sqrt()
     }
+}
+
+/// What a prediction missed its detection by, in their mean diagonal.
+pub fn error(predicted: &State, detected: &State) -> State {
+    (*detected - *predicted) * (2.0 / (predicted.diagonal() + detected.diagonal()))
 }
 
 /// Whether a match, before its update, says something about predictability: the track has a velocity, was not lost,
@@ -77,7 +81,7 @@ mod tests {
         let mut scene = SceneResidual::default();
         let mut residual = Residual::default();
         let a = State::new(0.0, 0.0, 30.0, 40.0);
-        residual.learn(&mut scene, &a, &State::new(3.0, 4.0, 30.0, 40.0));
+        residual.learn(&mut scene, &error(&a, &State::new(3.0, 4.0, 30.0, 40.0)));
         let expected = ((0.01 + 30.0 * 0.006436) / 31.0f64).sqrt();
         assert!((residual.value(&scene) - expected).abs() < 1e-12);
     }
@@ -88,7 +92,7 @@ mod tests {
         let mut scene = SceneResidual::default();
         let mut residual = Residual::default();
         let a = State::new(0.0, 0.0, 30.0, 40.0);
-        residual.learn(&mut scene, &a, &State::new(1000.0, 0.0, 30.0, 40.0));
+        residual.learn(&mut scene, &error(&a, &State::new(1000.0, 0.0, 30.0, 40.0)));
         assert_eq!(residual.mean_square, 0.25);
     }
 }

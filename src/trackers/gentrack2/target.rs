@@ -89,6 +89,10 @@ pub struct Target {
     pub history: VecDeque<Observation>,
     /// How well its motion is predicted.
     pub residual: Residual,
+    /// What the last prediction missed by, in box diagonals, if it met a detection.
+    pub last_error: Option<State>,
+    /// What speaks for the track: scores of its detections above `evidence_score`, added up.
+    pub evidence: f64,
     /// The particles.
     pub particles: Vec<Hypothesis>,
     /// State of the swarm's global best, `X_g`.
@@ -127,6 +131,8 @@ impl Target {
             matched: Match::None,
             history: VecDeque::new(),
             residual: Residual::default(),
+            last_error: None,
+            evidence: 0.0,
             particles: Vec::new(),
             global_best: State::default(),
             global_fitness: 1.0,
@@ -166,6 +172,8 @@ impl Target {
         self.matched = Match::Birth(index);
         self.history.clear();
         self.residual = Residual::default();
+        self.last_error = None;
+        self.evidence = 0.0;
         self.particles.clear();
         self.particles.resize(particles, Hypothesis { state, velocity: State::default(), fitness: 1.0 });
         self.global_best = state;
