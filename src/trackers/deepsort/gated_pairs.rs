@@ -85,4 +85,17 @@ mod tests {
         // Aspect .5 with deviations .01 and .1: .31 is as far as it goes.
         assert!(inside(0.0, 0.0, 80.0) && !inside(0.0, 0.0, 82.0));
     }
+
+    #[test]
+    fn a_distance_of_exactly_the_gate_is_within() {
+        // Height 100: variances 100 at birth and 25 of a measurement; 25 px aside 625/125 = 5, without rounding.
+        let filters = [AspectHeight::new(&Rect::new(0.0, 0.0, 50.0, 100.0))];
+        let mut pairs = GatedPairs::default();
+        let mut found = |gate: f64| {
+            pairs.find(filters.iter(), [(7, Rect::new(25.0, 0.0, 50.0, 100.0))].into_iter(), gate);
+            pairs.of(0).to_vec()
+        };
+        assert_eq!(found(5.0), [(7, 5.0)]);
+        assert_eq!(found(5.0f64.next_down()), []);
+    }
 }

@@ -212,6 +212,26 @@ mod tests {
         assert_eq!(association.partners(), [0, UNMATCHED]);
     }
 
+    /// 6 px apart 4 of 16 px are in common, an IoU of 1/4 without rounding.
+    #[test]
+    fn an_iou_of_exactly_the_threshold_does_not_make_a_pair_ambiguous() {
+        // IoU of d0 with t0 9/11, with t1 1/4.
+        let mut association = FullAssociation::default();
+        association.begin(boxes(&[0.0]), boxes(&[1.0, 6.0]), 0.25, |_, _| true);
+        assert!(association.match_unambiguous());
+        assert_eq!(association.partners(), [0]);
+    }
+
+    #[test]
+    fn an_iou_of_exactly_the_threshold_is_no_hit_but_is_not_rejected() {
+        let mut association = FullAssociation::default();
+        association.begin(boxes(&[0.0]), boxes(&[6.0]), 0.25, |_, _| true);
+        assert!(!association.has_hits() && !association.match_unambiguous());
+        assert_eq!(association.partners(), [UNMATCHED]);
+        association.best_overlap();
+        assert_eq!(association.partners(), [0]);
+    }
+
     fn best(values: &[Vec<f64>], row: usize, used: u32, to_leave: usize) -> f64 {
         let Some(of_row) = values.get(row) else { return 0.0 };
         let mut most = f64::NEG_INFINITY;
