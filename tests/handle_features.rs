@@ -568,9 +568,6 @@ fn a_known_camera_motion_changes_nothing_in_a_crowd() {
 fn camera_motion_is_off_by_default_where_the_publication_has_none() {
     use Algorithm::*;
     for_all(|algorithm, name| {
-        if algorithm == GenTrack2 {
-            return assert!(!has(algorithm, "use_camera_motion"), "it always follows");
-        }
         let transcript = |settings: &[(&str, &str)], known| {
             let mut lines = Vec::new();
             shake(&mut tracker(algorithm, settings), known, |_, _, output| lines.push(format!("{output:?}")));
@@ -580,7 +577,7 @@ fn camera_motion_is_off_by_default_where_the_publication_has_none() {
         let by_default = transcript(&[], true);
         let off = transcript(&[("use_camera_motion", "false")], true);
         let on = transcript(&[("use_camera_motion", "true")], true);
-        let published = matches!(algorithm, BotSort | SmileTrack | ConfTrack);
+        let published = matches!(algorithm, GenTrack2 | BotSort | SmileTrack | ConfTrack);
         assert!(off == unknown, "{name}: off is as if it were not known");
         assert!(on != off, "{name}: it matters");
         assert!(by_default == if published { on } else { off }, "{name}: the default");

@@ -204,7 +204,14 @@ mod tests {
     use crate::frame::{Detection, Frame};
 
     fn literal() -> GenTrack2Parameters {
-        GenTrack2Parameters { height_overlap: false, lambda_foot: 0.0, soft_least: 1.0, ..Default::default() }
+        GenTrack2Parameters {
+            height_overlap: false,
+            lambda_d: 0.1,
+            lambda_h: 0.1,
+            lambda_foot: 0.0,
+            soft_least: 1.0,
+            ..Default::default()
+        }
     }
 
     fn target_at(state: State, particles: &[State]) -> Target {
@@ -251,7 +258,7 @@ mod tests {
 
     #[test]
     fn the_foot_term_tells_boxes_apart_whose_bottoms_differ() {
-        let p = GenTrack2Parameters::default();
+        let p = GenTrack2Parameters { lambda_foot: 0.2, ..Default::default() };
         let state = State::new(0.0, 0.0, 30.0, 40.0);
         let target = target_at(state, &[state]);
         // Same centre, 8 px taller: the foot differs by 4 px of 48.

@@ -87,7 +87,7 @@ parameters! {
         noise_gain: f64 = 1.0, [0.0, 10.0], "", "lambda_X";
         /// Bound of the random displacement per tick: of the centre in box widths; of the size a quarter of it, in
         /// widths and heights.
-        state_noise: f64 = 0.01, [0.0, 1.0], "box widths/tick", "epsilon_X U_X^max";
+        state_noise: f64 = 0.014, [0.0, 1.0], "box widths/tick", "epsilon_X U_X^max";
         /// Bound of the random change of velocity per tick, in the same proportions.
         velocity_noise: f64 = 0.0025, [0.0, 1.0], "box widths/tick", "epsilon_V U_V^max";
         /// Bound of the centre's velocity.
@@ -143,7 +143,7 @@ parameters! {
 
         // Neighbours.
         /// Distance within which another target is a neighbour.
-        neighbour_radius: f64 = 1.0, [0.0, 20.0], "box diagonals", "epsilon_nei";
+        neighbour_radius: f64 = 0.5, [0.0, 20.0], "box diagonals", "epsilon_nei";
         /// The same for a weak track that found none.
         neighbour_radius_expanded: f64 = 2.0, [0.0, 40.0], "box diagonals", "epsilon_nei^exp";
 
@@ -151,11 +151,11 @@ parameters! {
         /// Weight of the motion cost. The paper's three weights sum to 1; here `cost_gate` sets their scale.
         lambda_p: f64 = 0.7, [0.0, 1.0], "", "lambda_p";
         /// Weight of the detection's lack of confidence.
-        lambda_d: f64 = 0.1, [0.0, 1.0], "", "lambda_d";
+        lambda_d: f64 = 0.15, [0.0, 1.0], "", "lambda_d";
         /// Weight of the track's penalty.
-        lambda_h: f64 = 0.1, [0.0, 1.0], "", "lambda_h";
+        lambda_h: f64 = 0.08, [0.0, 1.0], "", "lambda_h";
         /// Weight of the difference of the boxes' bottom edges over the detection's height.
-        lambda_foot: f64 = 0.2, [0.0, 1.0], "", "";
+        lambda_foot: f64 = 0.12, [0.0, 1.0], "", "";
         /// Multiply the IoU by the square root of the overlap of the boxes' vertical extents.
         height_overlap: bool = true, [], "", "";
         /// Distance cost scale in mean diagonals of track and detection: the smallest ...
@@ -163,27 +163,27 @@ parameters! {
         /// ... and the largest; in between it is `distance_scale_gain` times the track's prediction residual.
         distance_scale_max: f64 = 1.0, [0.01, 10.0], "box diagonals", "d_o,d";
         /// Prediction residuals per distance scale.
-        distance_scale_gain: f64 = 7.5, [0.0, 100.0], "", "";
+        distance_scale_gain: f64 = 8.3, [0.0, 100.0], "", "";
         /// Residual, in box diagonals, from which on the motion cost counts less, in proportion: where targets move
         /// unpredictably it says less about who is who ...
-        soft_residual: f64 = 0.065, [0.001, 10.0], "box diagonals", "";
+        soft_residual: f64 = 0.067, [0.001, 10.0], "box diagonals", "";
         /// ... but never less than this share of it. 1 is the paper's text.
-        soft_least: f64 = 0.5, [0.0, 1.0], "", "";
+        soft_least: f64 = 0.55, [0.0, 1.0], "", "";
         /// Cost of a detection that overlaps another, times their IoU: in a crowd a box fits several targets.
         crowd_cost: f64 = 0.05, [0.0, 2.0], "", "";
         /// Cost per tick of a track's time without a match, ...
-        lost_cost: f64 = 0.006, [0.0, 1.0], "per tick", "";
+        lost_cost: f64 = 0.0056, [0.0, 1.0], "per tick", "";
         /// ... beyond this time.
-        lost_cost_after: f64 = 10.0, [0.0, 1e6], "ticks", "";
+        lost_cost_after: f64 = 12.0, [0.0, 1e6], "ticks", "";
         /// Largest cost of an admissible pair, and the price of leaving a track unmatched.
         cost_gate: f64 = 0.3, [0.0, 2.0], "", "";
         /// Smallest (height-aware) IoU of prediction and detection of an admissible pair. With 0 pairs that do not
         /// overlap are admissible, up to the distance scale.
-        min_iou: f64 = 0.1, [0.0, 1.0], "", "";
+        min_iou: f64 = 0.12, [0.0, 1.0], "", "";
         /// Detections below this score are ignored.
         min_score: f64 = 0.1, [0.0, 1.0], "", "";
         /// Detections below this score are low ...
-        low_score: f64 = 0.6, [0.0, 1.0], "", "";
+        low_score: f64 = 0.62, [0.0, 1.0], "", "";
         /// ... and admissible only up to this motion cost.
         low_score_gate: f64 = 0.2, [0.0, 1.0], "", "";
         /// Tentative tracks, and tracks missed for `doubt_after`, take only detections of at least this score.
@@ -193,7 +193,7 @@ parameters! {
 
         // Births (eq. 10).
         /// Smallest score of a detection that starts a track.
-        birth_score: f64 = 0.7, [0.0, 1.0], "", "";
+        birth_score: f64 = 0.69, [0.0, 1.0], "", "";
         /// No birth where a track matched or born in this frame overlaps by more than this IoU; 1 turns it off.
         birth_iou: f64 = 0.51, [0.0, 1.0], "", "";
         /// Before a detection starts a track, targets that went out of sight behind another are asked whether it is one
@@ -205,27 +205,27 @@ parameters! {
         confirm_hits: i64 = 3, [1, 100], "hits", "";
         /// Evidence that a track needs to be confirmed besides: what its detections' scores exceed evidence_score by,
         /// added up.
-        confirm_evidence: f64 = 0.9, [0.0, 100.0], "", "";
+        confirm_evidence: f64 = 0.89, [0.0, 100.0], "", "";
         /// Score that is no evidence.
-        evidence_score: f64 = 0.5, [0.0, 1.0], "", "";
+        evidence_score: f64 = 0.45, [0.0, 1.0], "", "";
 
         // Strong updates (eq. 9).
         /// How a matched track takes its detection.
         strong_update: StrongUpdate = StrongUpdate::Blend, [], "", "";
         /// Weight of a detection of score 1 in the blended centre.
-        blend_centre: f64 = 0.7, [0.0, 1.0], "", "";
+        blend_centre: f64 = 0.78, [0.0, 1.0], "", "";
         /// Weight of a detection of score 1 in the blended size.
         blend_size: f64 = 0.6, [0.0, 1.0], "", "";
         /// How much the two weights adapt to the detector: they grow by this much times the correlation of successive
         /// prediction errors beyond usual_correlation, for errors that point the same way show that the blend lags
         /// behind, and alternating ones that it follows the detector's noise. 0: not at all.
-        blend_adaptation: f64 = 0.9, [0.0, 5.0], "", "";
+        blend_adaptation: f64 = 0.86, [0.0, 5.0], "", "";
         /// The correlation at which the weights are as they stand.
         usual_correlation: f64 = 0.4, [-1.0, 1.0], "", "";
         /// Distance from the previous state from which a detection is taken half-way only.
         jump_distance: f64 = 1.0, [0.0, 100.0], "box diagonals", "d_o";
         /// Penalty of a match with a detection of score 0; it falls to 0 at score 1. 0 is the paper's text.
-        strong_penalty: f64 = 0.3, [0.0, 1.0], "", "X^m,pen";
+        strong_penalty: f64 = 0.27, [0.0, 1.0], "", "X^m,pen";
 
         // Weak updates (eq. 11-14).
         /// How an unmatched track moves.
@@ -255,10 +255,10 @@ parameters! {
         /// recovery off. Needs an image.
         recovery_threshold: f64 = 1.0, [0.0, 1.0], "", "rho_re";
         /// Time without a match, at the paces below, after which a track ends whatever its age.
-        max_missed: f64 = 40.0, [0.0, 1e6], "ticks", "";
+        max_missed: f64 = 39.0, [0.0, 1e6], "ticks", "";
         /// Pace at which time without a match passes for a weak track that is wholly behind a strong one; 1 for one
         /// in the open, in proportion in between. 1 is the paper's text.
-        covered_pace: f64 = 0.5, [0.0, 1.0], "", "";
+        covered_pace: f64 = 0.57, [0.0, 1.0], "", "";
         /// The same for one whose centre is outside the image (where its size is known), which will hardly come back.
         outside_pace: f64 = 2.0, [0.0, 1000.0], "", "";
         /// Places where targets enter and leave: weak tracks centred in them age faster.
@@ -288,11 +288,11 @@ parameters! {
         /// Frames without a match for which a confirmed track is still reported.
         report_missed: i64 = 1, [0, 1000], "frames", "";
         /// The same for tracks whose motion has proved predictable.
-        coast: f64 = 20.0, [0.0, 1e6], "ticks", "";
+        coast: f64 = 18.0, [0.0, 1e6], "ticks", "";
         /// Matches such a track must have had.
         coast_hits: i64 = 10, [0, 1_000_000], "hits", "";
         /// Largest prediction residual of such a track, growing by a tenth per tick without a match.
-        coast_residual: f64 = 0.14, [0.0, 10.0], "box diagonals", "";
+        coast_residual: f64 = 0.22, [0.0, 10.0], "box diagonals", "";
         /// Smallest share of past predictions of lost tracks that proved right for coasting to go on.
         coast_success: f64 = 0.5, [0.0, 1.0], "", "";
     }
