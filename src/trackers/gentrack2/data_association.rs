@@ -32,6 +32,13 @@ pub struct Sight<'a, 'i> {
     pub hog: &'a mut HogWorkspace,
 }
 
+impl Sight<'_, '_> {
+    /// Whether looks take part in the cost of a target's pairs.
+    fn speaks(&self, p: &GenTrack2Parameters, target: &Target) -> bool {
+        p.hog_cost > 0.0 && self.image.is_some() && target.has_template
+    }
+}
+
 impl DataAssociation {
     /// Matches targets with detections: sets `matched` of every target and fills `taken`.
     pub fn associate(
@@ -80,7 +87,9 @@ impl DataAssociation {
             if !rule.allows(target.life.last.class_id, observed.detection.class_id) {
                 continue;
             }
-            let Some(mut cost) = motion_part(p, target, observed, scene) else { continue };
+            // Where looks speak, motion need not be taken less seriously.
+            let softness = if sight.speaks(p, target) { 1.0 } else { softness(p, target, scene) };
+            let Some(mut cost) = motion_part(p, target, observed, scene, softness) else { continue };
             cost += embedding_part(p, target, observations, column as usize);
             // Looking is dear: not where the pair is out already.
             if cost <= p.cost_gate + p.hog_gate {
@@ -100,7 +109,13 @@ fn widened(state: &State, reach: f64) -> Rect {
 }
 
 /// Eq. 7 and the foot term, or `None` for an inadmissible pair.
-fn motion_part(p: &GenTrack2Parameters, target: &Target, observed: &Observed, scene: &SceneResidual) -> Option<f64> {
+fn motion_part(
+    p: &GenTrack2Parameters,
+    target: &Target,
+    observed: &Observed,
+    scene: &SceneResidual,
+    softness: f64,
+) -> Option<f64> {
     let detection = &observed.detection;
     let doubtful = !target.confirmed || target.missed >= p.doubt_after;
     if doubtful && detection.score < p.doubt_score {
@@ -117,10 +132,9 @@ fn motion_part(p: &GenTrack2Parameters, target: &Target, observed: &Observed, sc
     }
     let foot = (target.predicted.v + 0.5 * target.predicted.h) - (observed.state.v + 0.5 * observed.state.h);
     let foot = (foot.abs() / observed.state.h).min(1.0);
-    let softened = motion * softness(p, target, scene);
     let lost = p.lost_cost * (target.missed - p.lost_cost_after).max(0.0);
     Some(
-        total_cost(p, softened, detection.score, target.penalty)
+        total_cost(p, softness * motion, detection.score, target.penalty)
             + p.lambda_foot * foot
             + p.crowd_cost * observed.crowd
             + lost,
@@ -251,7 +265,7 @@ mod tests {
         let detections = [Detection { rect: state.into(), score: 0.8, ..Default::default() }];
         let mut observations = Observations::default();
         observations.prepare(&Frame::new(&detections), 0.0);
-        let cost = motion_part(&p, &target, observations.get(0), &SceneResidual::default()).unwrap();
+        let cost = motion_part(&p, &target, observations.get(0), &SceneResidual::default(), 1.0).unwrap();
         // .7 * .1 + .1 * .2 + .1 * .5 = .14.
         assert!((cost - 0.14).abs() < 1e-12, "{cost}");
     }
@@ -266,9 +280,9 @@ mod tests {
         let detections = [Detection { rect: taller.into(), score: 1.0, ..Default::default() }];
         let mut observations = Observations::default();
         observations.prepare(&Frame::new(&detections), 0.0);
-        let with = motion_part(&p, &target, observations.get(0), &SceneResidual::default()).unwrap();
+        let with = motion_part(&p, &target, observations.get(0), &SceneResidual::default(), 1.0).unwrap();
         let without = GenTrack2Parameters { lambda_foot: 0.0, ..p };
-        let without = motion_part(&without, &target, observations.get(0), &SceneResidual::default()).unwrap();
+        let without = motion_part(&without, &target, observations.get(0), &SceneResidual::default(), 1.0).unwrap();
         assert!((with - without - 0.2 * 4.0 / 48.0).abs() < 1e-12);
     }
 
@@ -297,7 +311,7 @@ mod tests {
             ];
             let mut observations = Observations::default();
             observations.prepare(&Frame::new(&detections), 0.0);
-            motion_part(p, target, observations.get(0), &SceneResidual::default()).unwrap()
+            motion_part(p, target, observations.get(0), &SceneResidual::default(), 1.0).unwrap()
         };
         let p = GenTrack2Parameters { crowd_cost: 0.0, lost_cost: 0.0, doubt_score: 0.0, ..literal() };
         assert_eq!(cost(&p, &target), 0.0);
@@ -319,7 +333,7 @@ mod tests {
             let rect = State::new(u, 0.0, 30.0, 40.0).into();
             let mut observations = Observations::default();
             observations.prepare(&Frame::new(&[Detection { rect, score, ..Default::default() }]), 0.0);
-            motion_part(&p, target, observations.get(0), &SceneResidual::default())
+            motion_part(&p, target, observations.get(0), &SceneResidual::default(), 1.0)
         };
         assert!(cost(&target, 2.0, 0.9).is_some());
         // IoU below .1: 26 px apart leaves 4*40 / (2400 - 160) = .07.

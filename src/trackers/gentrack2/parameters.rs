@@ -133,9 +133,9 @@ parameters! {
         /// Share of the old template when a strong track learns its new appearance.
         template_momentum: f64 = 0.9, [0.0, 1.0], "", "";
         /// Weight of HOG dissimilarity in the association cost; 0 keeps appearance to the swarm, the paper's text.
-        hog_cost: f64 = 0.8, [0.0, 2.0], "", "";
+        hog_cost: f64 = 1.0, [0.0, 2.0], "", "";
         /// Added to `cost_gate` where HOG takes part in the cost.
-        hog_gate: f64 = 0.5, [0.0, 2.0], "", "";
+        hog_gate: f64 = 0.6, [0.0, 2.0], "", "";
         /// Weight of embedding dissimilarity, `(1 - cosine)/2`, in the association cost.
         embedding_cost: f64 = 0.5, [0.0, 2.0], "", "";
         /// Added to `cost_gate` where embeddings take part in the cost.
@@ -151,11 +151,11 @@ parameters! {
         /// Weight of the motion cost. The paper's three weights sum to 1; here `cost_gate` sets their scale.
         lambda_p: f64 = 0.7, [0.0, 1.0], "", "lambda_p";
         /// Weight of the detection's lack of confidence.
-        lambda_d: f64 = 0.15, [0.0, 1.0], "", "lambda_d";
+        lambda_d: f64 = 0.14, [0.0, 1.0], "", "lambda_d";
         /// Weight of the track's penalty.
         lambda_h: f64 = 0.08, [0.0, 1.0], "", "lambda_h";
         /// Weight of the difference of the boxes' bottom edges over the detection's height.
-        lambda_foot: f64 = 0.12, [0.0, 1.0], "", "";
+        lambda_foot: f64 = 0.14, [0.0, 1.0], "", "";
         /// Multiply the IoU by the square root of the overlap of the boxes' vertical extents.
         height_overlap: bool = true, [], "", "";
         /// Distance cost scale in mean diagonals of track and detection: the smallest ...
@@ -165,7 +165,7 @@ parameters! {
         /// Prediction residuals per distance scale.
         distance_scale_gain: f64 = 8.3, [0.0, 100.0], "", "";
         /// Residual, in box diagonals, from which on the motion cost counts less, in proportion: where targets move
-        /// unpredictably it says less about who is who ...
+        /// unpredictably it says less about who is who, unless their looks tell ...
         soft_residual: f64 = 0.067, [0.001, 10.0], "box diagonals", "";
         /// ... but never less than this share of it. 1 is the paper's text.
         soft_least: f64 = 0.55, [0.0, 1.0], "", "";
@@ -319,6 +319,11 @@ impl GenTrack2Parameters {
                 embedding_cost: 0.0,
                 embedding_gate: 0.0,
                 lambda_p: 0.8,
+                lambda_d: 0.1,
+                lambda_h: 0.1,
+                state_noise: 0.01,
+                neighbour_radius: 1.0,
+                birth_score: 0.7,
                 lambda_foot: 0.0,
                 height_overlap: false,
                 distance_scale_min: 0.4,
