@@ -13,7 +13,8 @@ parameters! {
         /// Largest 1 - cosine of a detection's embedding and the most similar one in the track's gallery. Where there
         /// is nothing to compare, pairs within the gate are matched by their Mahalanobis distance.
         max_cosine_distance: f64 = 0.2, [0.0, 2.0], "", "";
-        /// Most embeddings in a track's gallery; the oldest ones go.
+        /// Most embeddings in a track's gallery; the oldest ones go. The publication's experiments have 100, its program by
+        /// default no limit, which would let memory grow for as long as a track lives.
         nn_budget: i64 = 100, [1, 100_000], "embeddings", "";
         /// Largest 1 - IoU of a pair in the round without embeddings. Boxes must overlap in any case.
         max_iou_distance: f64 = 0.7, [0.0, 1.0], "", "";
