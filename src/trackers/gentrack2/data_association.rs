@@ -311,6 +311,7 @@ mod tests {
             ];
             let mut observations = Observations::default();
             observations.prepare(&Frame::new(&detections), 0.0);
+            observations.measure_crowd(ClassRule::default());
             motion_part(p, target, observations.get(0), &SceneResidual::default(), 1.0).unwrap()
         };
         let p = GenTrack2Parameters { crowd_cost: 0.0, lost_cost: 0.0, doubt_score: 0.0, ..literal() };

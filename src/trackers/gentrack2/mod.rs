@@ -165,6 +165,9 @@ impl GenTrack2 {
 
     fn associate(&mut self, frame: &Frame<'_>, rule: ClassRule) {
         let work = &mut self.work;
+        if self.parameters.crowd_cost > 0.0 {
+            work.observations.measure_crowd(rule);
+        }
         let mut sight = Sight { image: frame.image.as_ref(), hog: &mut work.swarm.hog };
         let (targets, scene) = (&mut self.memory.targets, &self.memory.scene);
         work.association.associate(&self.parameters, targets, &mut work.observations, scene, rule, &mut sight);

@@ -3,6 +3,7 @@
 
 use crate::appearance::{Descriptor, HogWorkspace};
 use crate::candidates::OverlapSweep;
+use crate::classes::ClassRule;
 use crate::embedding::UnitRows;
 use crate::frame::{Detection, Frame};
 use crate::geometry::{Rect, State};
@@ -22,7 +23,7 @@ pub struct Observed {
     pub detection: Detection,
     /// Its box as a state.
     pub state: State,
-    /// The largest IoU with another detection of the frame that is sure enough.
+    /// The largest IoU with another detection of the frame that is sure enough; 0 before it is measured.
     pub crowd: f64,
     look: Look,
 }
@@ -67,18 +68,19 @@ impl Observations {
             let rest = |o: &Observed| (o.detection.class_id, o.detection.tag, o.row);
             boxes.unwrap_or_else(|| rest(a).cmp(&rest(b)))
         });
-        self.measure_crowd();
         self.embeddings.fill(frame.embeddings.as_ref(), frame.detections.len());
     }
 
-    fn measure_crowd(&mut self) {
+    /// Sets `crowd` of all.
+    pub fn measure_crowd(&mut self, rule: ClassRule) {
         self.boxes.clear();
         self.boxes.extend(self.list.iter().map(|o| o.detection.rect));
-        for &(a, b) in self.sweep.pairs(&self.boxes, &self.boxes).iter().filter(|(a, b)| a != b) {
-            let (iou, sure) =
-                (self.boxes[a as usize].iou(&self.boxes[b as usize]), self.list[b as usize].detection.score > SURE);
-            let crowd = &mut self.list[a as usize].crowd;
-            *crowd = if sure { crowd.max(iou) } else { *crowd };
+        for &(a, b) in self.sweep.pairs(&self.boxes, &self.boxes) {
+            let (one, other) = (self.list[a as usize].detection, self.list[b as usize].detection);
+            if a != b && other.score > SURE && rule.allows(one.class_id, other.class_id) {
+                let crowd = &mut self.list[a as usize].crowd;
+                *crowd = crowd.max(one.rect.iou(&other.rect));
+            }
         }
     }
 
