@@ -2,8 +2,7 @@
 //! "BoT-SORT: Robust Associations Multi-Pedestrian Tracking", 2022.
 
 use super::TrackingAlgorithm;
-use super::life::SMALLEST;
-use super::two_round::{Looks, Rules, TwoRound, two_round_parameters};
+use super::two_round::{Looks, TwoRound, two_round_parameters};
 use crate::error::Error;
 use crate::kalman::WidthHeight;
 use crate::parameters::only_default_preset;
@@ -27,13 +26,7 @@ impl BotSortParameters {
     /// A tracker with these parameters.
     pub fn build(&self) -> Result<Box<dyn TrackingAlgorithm>, Error> {
         let looks = Looks::Attract { proximity: self.proximity_thresh, threshold: self.appearance_thresh };
-        let rules = Rules {
-            report_unconfirmed: true,
-            looks,
-            momentum: self.feature_momentum,
-            smallest_width: SMALLEST,
-            ..self.shared_rules()
-        };
+        let rules = self.shared_rules().with_looks(looks, self.feature_momentum);
         Ok(Box::new(TwoRound::<WidthHeight>::new(rules)))
     }
 }

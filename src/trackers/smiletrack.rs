@@ -3,8 +3,7 @@
 //! there. Without embeddings it is BoT-SORT without them.
 
 use super::TrackingAlgorithm;
-use super::life::SMALLEST;
-use super::two_round::{Looks, Rules, TwoRound, two_round_parameters};
+use super::two_round::{Looks, TwoRound, two_round_parameters};
 use crate::error::Error;
 use crate::kalman::WidthHeight;
 
@@ -49,13 +48,7 @@ impl SmileTrackParameters {
     /// A tracker with these parameters.
     pub fn build(&self) -> Result<Box<dyn TrackingAlgorithm>, Error> {
         let looks = Looks::Veto { limit: self.similarity_gate, weight: self.appearance_weight, gate: self.gate };
-        let rules = Rules {
-            report_unconfirmed: true,
-            looks,
-            momentum: self.feature_momentum,
-            smallest_width: SMALLEST,
-            ..self.shared_rules()
-        };
+        let rules = self.shared_rules().with_looks(looks, self.feature_momentum);
         Ok(Box::new(TwoRound::<WidthHeight>::new(rules)))
     }
 }

@@ -63,6 +63,13 @@ pub struct Rules {
     pub smallest_width: f64,
 }
 
+impl Rules {
+    /// What BoT-SORT changes, and SMILEtrack with it: embeddings count, and new tracks are reported at once.
+    pub fn with_looks(self, looks: Looks, momentum: f64) -> Self {
+        Self { report_unconfirmed: true, looks, momentum, smallest_width: SMALLEST, ..self }
+    }
+}
+
 /// A tracker of the family.
 pub struct TwoRound<F> {
     rules: Rules,
