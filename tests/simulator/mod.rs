@@ -19,3 +19,4 @@ pub mod render;
 pub mod scene;
 pub mod stage;
 pub mod verdict;
+pub mod watched;
