@@ -40,7 +40,8 @@ impl DeepTrack {
         Rect::from(self.filter.state())
     }
 
-    fn take(&mut self, row: u32, detection: &Detection, p: &DeepSortParameters) {
+    fn take(&mut self, row: u32, detection: &Detection, embedding: Option<&[f64]>, p: &DeepSortParameters) {
+        self.learn(embedding, p);
         self.life.take(row, detection);
         self.filter.correct(&detection.rect);
         self.confirmed |= i64::from(self.life.hits) >= p.n_init;
@@ -141,9 +142,8 @@ impl DeepSort {
             let pairs =
                 work.pairing.pair_edges(&work.edges, &mut work.step, &mut work.rows, p.max_cosine_distance + BEYOND);
             for &(track, row) in pairs {
-                let track = &mut tracks[track as usize];
-                track.take(row, &frame.detections[row as usize], p);
-                track.learn(work.embeddings.row(row as usize), p);
+                let embedding = work.embeddings.row(row as usize);
+                tracks[track as usize].take(row, &frame.detections[row as usize], embedding, p);
             }
             from += count;
         }
@@ -171,9 +171,7 @@ impl DeepSort {
             cost,
         );
         for &(track, row) in pairs {
-            let track = &mut tracks[track as usize];
-            track.take(row, detection(row), p);
-            track.learn(work.embeddings.row(row as usize), p);
+            tracks[track as usize].take(row, detection(row), work.embeddings.row(row as usize), p);
         }
     }
 
