@@ -21,6 +21,7 @@ static void statuses(void) {
         GT2_ERR_INVALID_TEXT,
         GT2_ERR_PANIC,
         GT2_ERR_POISONED,
+        GT2_ERR_UNSUPPORTED,
         GT2_ERR_DETECTION,
         GT2_ERR_IMAGE,
         GT2_ERR_EMBEDDINGS,
@@ -33,6 +34,7 @@ static void statuses(void) {
         GT2_ERR_PARAMETER_VALUE,
         GT2_ERR_CONFIG_SYNTAX,
         GT2_ERR_UNKNOWN_TRACK,
+        GT2_ERR_SNAPSHOT,
     };
     const size_t count = sizeof all / sizeof all[0];
     const char *unknown = gt2_status_str(1);

@@ -116,10 +116,22 @@ void tracking() {
     CHECK(status_of([&] { tracker.reset(); }) == GT2_ERR_NULL_POINTER); // moved from
 }
 
+void saving() {
+    gentrack2::Tracker tracker(gentrack2::Config("gentrack2"));
+    track_elsewhere(tracker, 0, 10);
+    const std::vector<std::uint8_t> bytes = tracker.save();
+    gentrack2::Tracker loaded = gentrack2::Tracker::load(bytes);
+    CHECK(loaded.algorithm() == "gentrack2" && loaded.reported().size() == 2);
+    CHECK(loaded.save() == bytes);
+    CHECK(track_elsewhere(loaded, 10, 12).size() == 2 && loaded.track_of_detection()[0] == 1);
+    CHECK(status_of([&] { gentrack2::Tracker::load(bytes.data(), bytes.size() / 2); }) == GT2_ERR_SNAPSHOT);
+}
+
 } // namespace
 
 int main() {
     configs();
     tracking();
+    saving();
     return failures > 0;
 }

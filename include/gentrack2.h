@@ -127,6 +127,9 @@
 /// freed.
 #define GT2_ERR_POISONED -8
 
+/// This build of the library leaves the function out.
+#define GT2_ERR_UNSUPPORTED -9
+
 /// A field of a detection is out of range.
 #define GT2_ERR_DETECTION -20
 
@@ -162,6 +165,9 @@
 
 /// No live track has that identity.
 #define GT2_ERR_UNKNOWN_TRACK -44
+
+/// Bytes that are no snapshot of a tracker, a damaged one, or one of a later version of the library.
+#define GT2_ERR_SNAPSHOT -45
 
 /// A parameter that is a real number.
 #define GT2_PARAMETER_NUMBER 1
@@ -632,6 +638,33 @@ gt2_status gt2_tracker_track_of_detection(const struct gt2_tracker *tracker,
 gt2_status gt2_tracker_particles(const struct gt2_tracker *tracker,
                                  uint64_t id,
                                  struct gt2_particle_list *out);
+
+/// Writes everything that a tracker knows, its config included, to `buffer`, an array of `capacity` bytes, and stores
+/// the number of bytes in `*needed`, which may be NULL; with a `capacity` of 0 that is all it does. If the buffer is
+/// too small it stays as it is and `*needed` is stored all the same. `gt2_tracker_load` makes a tracker of the bytes
+/// that goes on, in any process and on any machine, exactly as this one would. The tracker is unchanged.
+///
+/// A later version of the library reads the snapshots of earlier ones.
+///
+/// Errors: `GT2_ERR_NULL_POINTER`, `GT2_ERR_BUFFER_TOO_SMALL`, `GT2_ERR_UNSUPPORTED` from a library that was built
+/// without snapshots.
+gt2_status gt2_tracker_save(const struct gt2_tracker *tracker,
+                            uint8_t *buffer,
+                            size_t capacity,
+                            size_t *needed);
+
+/// Makes a tracker of the `size` bytes of a snapshot and stores it in `*out`; release it with `gt2_tracker_free`. Its
+/// lists are those of the tracker that was saved. On an error `*out` is not written.
+///
+/// The bytes are checked, so a file that was cut or damaged is refused. They are not a place for secrets, nor proof
+/// against someone who forges them: what is loaded from a forged snapshot may track nonsense or end in
+/// `GT2_ERR_PANIC`, but harms nothing else.
+///
+/// Errors: `GT2_ERR_NULL_POINTER`, `GT2_ERR_SNAPSHOT` for bytes that are no snapshot, a damaged one, or one of a later
+/// version, `GT2_ERR_UNSUPPORTED` from a library that was built without snapshots.
+gt2_status gt2_tracker_load(const uint8_t *bytes,
+                            size_t size,
+                            struct gt2_tracker **out);
 
 #ifdef __cplusplus
 }  // extern "C"

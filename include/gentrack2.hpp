@@ -390,10 +390,28 @@ public:
     }
     std::string algorithm() const { return detail::check_text(gt2_tracker_algorithm(get())); }
 
+    /// Everything the tracker knows, as bytes of which `load` makes a tracker that goes on exactly as this one would.
+    std::vector<std::uint8_t> save() const {
+        std::size_t size = 0;
+        check(gt2_tracker_save(get(), nullptr, 0, &size));
+        std::vector<std::uint8_t> bytes(size);
+        check(gt2_tracker_save(get(), bytes.data(), bytes.size(), &size));
+        return bytes;
+    }
+    /// The tracker of a snapshot. Throws for bytes that are none, damaged, or of a later version.
+    static Tracker load(const std::uint8_t *bytes, std::size_t size) {
+        gt2_tracker *made = nullptr;
+        check(gt2_tracker_load(bytes, size, &made));
+        return Tracker(made);
+    }
+    static Tracker load(const std::vector<std::uint8_t> &bytes) { return load(bytes.data(), bytes.size()); }
+
     /// The handle for the functions of gentrack2.h.
     gt2_tracker *get() const noexcept { return handle_.get(); }
 
 private:
+    explicit Tracker(gt2_tracker *made) : handle_(made) {}
+
     Tracks tracks(std::int32_t kind) const {
         gt2_track_list list = GT2_TRACK_LIST_INIT;
         check(gt2_tracker_tracks(get(), kind, &list));

@@ -1,7 +1,5 @@
 //! Re-identification embeddings: those of a frame as unit vectors, and what a track remembers of them.
 
-use std::collections::VecDeque;
-
 use crate::frame::Embeddings;
 
 /// The embeddings of a frame, scaled to length 1.
@@ -34,6 +32,7 @@ impl UnitRows {
 
 /// A running mean of unit embeddings, kept at length 1.
 #[derive(Clone, Debug, Default)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct MeanEmbedding(Vec<f64>);
 
 impl MeanEmbedding {
@@ -61,40 +60,40 @@ impl MeanEmbedding {
     }
 }
 
-/// The latest unit embeddings of a track, in 32 bits.
+/// The latest unit embeddings of a track, in 32 bits: a ring of whole rows, so that no sum depends on where it starts.
 #[derive(Clone, Debug, Default)]
-pub struct Gallery(VecDeque<f32>);
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
+pub struct Gallery {
+    rows: Vec<f32>,
+    /// Where the oldest row begins once the ring is full.
+    oldest: usize,
+}
 
 impl Gallery {
     /// Forgets everything but the memory it occupies.
     pub fn clear(&mut self) {
-        self.0.clear();
+        self.rows.clear();
+        self.oldest = 0;
     }
 
-    /// Adds a unit embedding; beyond `budget` of them the oldest ones go.
+    /// Adds a unit embedding; it takes the place of the oldest if there are `budget` of them.
     pub fn add(&mut self, seen: &[f64], budget: usize) {
-        if self.0.len() >= seen.len() * budget {
-            self.0.drain(..self.0.len() + seen.len() - seen.len() * budget);
+        if self.rows.len() < seen.len() * budget {
+            self.rows.extend(seen.iter().map(|x| *x as f32));
+            return;
         }
-        self.0.extend(seen.iter().map(|x| *x as f32));
+        let Some(row) = self.rows.get_mut(self.oldest..self.oldest + seen.len()) else { return };
+        row.iter_mut().zip(seen).for_each(|(old, new)| *old = *new as f32);
+        self.oldest = (self.oldest + seen.len()) % self.rows.len();
     }
 
     /// The smallest `1 - cosine`, in `[0, 2]`, to a unit embedding; `None` of an empty gallery.
     pub fn distance(&self, seen: &[f64]) -> Option<f64> {
-        if self.0.is_empty() || !self.0.len().is_multiple_of(seen.len()) {
+        if self.rows.is_empty() || !self.rows.len().is_multiple_of(seen.len()) {
             return None;
         }
-        // Rows are added and dropped whole, and the capacity may not be a multiple of a row's length: a row can lie
-        // across the ring's seam.
-        let (front, back) = self.0.as_slices();
-        let (whole, head) = front.split_at(front.len() - front.len() % seen.len());
-        let tail_length = if head.is_empty() { 0 } else { seen.len() - head.len() };
-        let (tail, rest) = back.split_at(tail_length);
-        let rows = whole.chunks_exact(seen.len()).chain(rest.chunks_exact(seen.len()));
-        let mut best = rows.map(|row| dot_32(row, seen)).fold(f64::NEG_INFINITY, f64::max);
-        if !head.is_empty() {
-            best = best.max(dot_32(head, seen) + dot_32(tail, &seen[head.len()..]));
-        }
+        let rows = self.rows.chunks_exact(seen.len());
+        let best = rows.map(|row| dot_32(row, seen)).fold(f64::NEG_INFINITY, f64::max);
         Some((1.0 - best).clamp(0.0, 2.0))
     }
 }

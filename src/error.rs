@@ -96,6 +96,9 @@ pub enum Error {
     /// Text that is not valid TOML, or has the wrong shape.
     #[error("configuration: {0}")]
     ConfigSyntax(String),
+    /// Bytes that are no snapshot of a tracker, a damaged one, or one of a later version.
+    #[error("snapshot {0}")]
+    Snapshot(String),
     /// No live track of that identity.
     #[error("no live track has id {0}")]
     UnknownTrack(u64),

@@ -5,6 +5,7 @@ use crate::image::ImageView;
 
 /// One detection.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct Detection {
     /// Box in pixels.
     pub rect: Rect,

@@ -4,6 +4,7 @@
 /// library.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct Rect {
     /// Left edge.
     pub left: f64,
@@ -62,6 +63,7 @@ impl Rect {
 /// derivative `V`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct State {
     /// Horizontal centre.
     pub u: f64,

@@ -29,6 +29,8 @@ pub mod image;
 pub mod kalman;
 pub mod parameters;
 pub mod random;
+#[cfg(feature = "snapshot")]
+pub mod snapshot;
 pub mod track;
 pub mod tracker;
 pub mod trackers;

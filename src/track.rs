@@ -4,6 +4,7 @@ use crate::geometry::{Rect, State};
 
 /// Where a track stands in its life.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub enum TrackState {
     /// Born recently, not yet trusted.
     Tentative,
@@ -15,6 +16,7 @@ pub enum TrackState {
 
 /// One track after a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct Track {
     /// Identity: unique within its tracker until that is reset, never used again.
     pub id: u64,
@@ -55,6 +57,7 @@ pub struct Particle {
 
 /// Results of one step, in buffers that are reused from step to step.
 #[derive(Clone, Debug, Default)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct Output {
     /// Tracks the algorithm stands for in this frame: what a user draws or writes to a file. Matched tracks, and
     /// lost ones whose predicted box is trusted; with algorithms that report new tracks at once also tentative ones.

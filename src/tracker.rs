@@ -4,7 +4,8 @@ use crate::classes::ClassRule;
 use crate::config::Config;
 use crate::error::Error;
 use crate::frame::Frame;
-use crate::parameters::CommonParameters;
+#[cfg(feature = "snapshot")]
+use crate::snapshot::{self, Decoder, Encoder, SavedConfig};
 use crate::track::{Output, Particle};
 use crate::trackers::{Algorithm, TrackingAlgorithm};
 use crate::validation::{History, check_frame};
@@ -36,6 +37,7 @@ const CLOCK_TICK: f64 = 1e-3;
 
 /// Hands out identities.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct IdSource {
     next: u64,
 }
@@ -51,6 +53,7 @@ impl IdSource {
 
 /// When the detector ran.
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 struct DetectorClock {
     /// Time since it last ran, in nominal frame intervals.
     since: f64,
@@ -67,8 +70,7 @@ impl DetectorClock {
 
 /// A tracker of one video stream.
 pub struct Tracker {
-    algorithm: Algorithm,
-    common: CommonParameters,
+    config: Config,
     inner: Box<dyn TrackingAlgorithm>,
     ids: IdSource,
     history: History,
@@ -80,8 +82,7 @@ impl Tracker {
     /// A tracker with a copy of the configuration.
     pub fn new(config: &Config) -> Result<Self, Error> {
         Ok(Self {
-            algorithm: config.algorithm(),
-            common: config.common.clone(),
+            config: config.clone(),
             inner: config.parameters.build_for(config.common.class_policy)?,
             ids: IdSource { next: config.common.first_id as u64 },
             history: History::default(),
@@ -98,12 +99,17 @@ impl Tracker {
 
     /// The algorithm at work.
     pub fn algorithm(&self) -> Algorithm {
-        self.algorithm
+        self.config.algorithm()
+    }
+
+    /// Its configuration.
+    pub fn config(&self) -> &Config {
+        &self.config
     }
 
     /// Advances by one frame. On an error the tracker, its last output included, is as before the call.
     pub fn step(&mut self, frame: &Frame<'_>) -> Result<&Output, Error> {
-        check_frame(frame, &self.common, &self.history)?;
+        check_frame(frame, &self.config.common, &self.history)?;
         let elapsed = self.elapsed_frames(frame.timestamp_ns);
         self.remember(frame, elapsed);
         self.detector.count(elapsed, !frame.detector_skipped);
@@ -112,10 +118,10 @@ impl Tracker {
             elapsed,
             since_detector: self.detector.since,
             detector_frames: self.detector.frames,
-            frame_rate: self.common.frame_rate,
-            seed: self.common.seed as u64,
-            max_tracks: self.common.max_tracks as usize,
-            classes: ClassRule::of(self.common.class_policy),
+            frame_rate: self.config.common.frame_rate,
+            seed: self.config.common.seed as u64,
+            max_tracks: self.config.common.max_tracks as usize,
+            classes: ClassRule::of(self.config.common.class_policy),
             ids: &mut self.ids,
         };
         self.inner.step(frame, &mut context, &mut self.output);
@@ -142,16 +148,42 @@ impl Tracker {
     /// Forgets everything but the configuration: the next step is as the first of a new tracker.
     pub fn reset(&mut self) {
         self.inner.reset();
-        self.ids = IdSource { next: self.common.first_id as u64 };
+        self.ids = IdSource { next: self.config.common.first_id as u64 };
         self.history = History::default();
         self.detector = DetectorClock::default();
         self.output.begin(0);
     }
 
+    /// Everything that the tracker knows, as bytes that [`Tracker::load`] makes a tracker of which goes on as this one
+    /// would. They are the same on every machine.
+    #[cfg(feature = "snapshot")]
+    pub fn save(&self) -> Vec<u8> {
+        let mut state = Encoder::default();
+        state.put(&SavedConfig::of(&self.config));
+        state.put(&(&self.ids, &self.history, &self.detector, &self.output));
+        self.inner.save(&mut state);
+        snapshot::seal(&state.into_bytes())
+    }
+
+    /// The tracker of a snapshot, configuration included.
+    ///
+    /// # Errors
+    /// [`Error::Snapshot`] for bytes that are no snapshot, a damaged one, or one of a later version of the library.
+    #[cfg(feature = "snapshot")]
+    pub fn load(bytes: &[u8]) -> Result<Self, Error> {
+        let mut state = Decoder::new(snapshot::open(bytes)?);
+        let config = state.take::<SavedConfig>()?.restore()?;
+        let mut tracker = Self::new(&config)?;
+        (tracker.ids, tracker.history, tracker.detector, tracker.output) = state.take()?;
+        tracker.inner.load(&mut state)?;
+        state.finish()?;
+        Ok(tracker)
+    }
+
     fn elapsed_frames(&self, now: Option<i64>) -> f64 {
         match (now, self.history.timestamp_ns) {
             (Some(now), Some(before)) => {
-                let elapsed = now.abs_diff(before) as f64 * 1e-9 * self.common.frame_rate;
+                let elapsed = now.abs_diff(before) as f64 * 1e-9 * self.config.common.frame_rate;
                 let whole = elapsed.round();
                 if (elapsed - whole).abs() < CLOCK_TICK && whole > 0.0 { whole } else { elapsed }
             }
@@ -163,7 +195,7 @@ impl Tracker {
         if let Some(embeddings) = &frame.embeddings {
             self.history.embedding_dimension = Some(embeddings.dimension);
         }
-        let interval = (elapsed / self.common.frame_rate * 1e9) as i64;
+        let interval = (elapsed / self.config.common.frame_rate * 1e9) as i64;
         // A frame without a timestamp among frames with them moves the clock by one nominal interval.
         self.history.timestamp_ns =
             frame.timestamp_ns.or(self.history.timestamp_ns.map(|before| before.saturating_add(interval)));
@@ -172,6 +204,6 @@ impl Tracker {
 
 impl std::fmt::Debug for Tracker {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Tracker").field("algorithm", &self.algorithm).finish_non_exhaustive()
+        f.debug_struct("Tracker").field("algorithm", &self.algorithm()).finish_non_exhaustive()
     }
 }

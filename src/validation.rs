@@ -10,6 +10,7 @@ pub const MAX_COORDINATE: f64 = 1e12;
 
 /// What earlier frames fixed.
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct History {
     /// Length of the embeddings seen so far.
     pub embedding_dimension: Option<usize>,

@@ -12,6 +12,8 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::sync::{Arc, Mutex};
 
+#[cfg(feature = "snapshot")]
+use gentrack2::Tracker;
 use libtest_mimic::{Arguments, Completion, Failed, Trial};
 use oracles::compare::Report;
 use oracles::place;
@@ -27,6 +29,10 @@ fn main() -> ExitCode {
     for variant in variants::all() {
         trials.extend(variant.synthetic.iter().map(|name| synthetic(variant.clone(), name, &outcomes)));
         trials.extend(variant.mot17.iter().map(|name| mot17(variant.clone(), name, &outcomes)));
+    }
+    #[cfg(feature = "snapshot")]
+    for variant in variants::all().into_iter().chain([variants::gentrack2()]) {
+        trials.extend(variant.mot17.iter().map(|name| saved_and_loaded(variant.clone(), name)));
     }
     trials.extend(variants::mistakes().into_iter().map(|mistake| noticed(mistake, &outcomes)));
     trials.push(needing_data("fixtures/are those of the measurement data".to_string(), fixtures_have_not_drifted));
@@ -56,6 +62,21 @@ fn mot17(variant: Variant, sequence: &'static str, outcomes: &Outcomes) -> Trial
         let report = place::reproduce_mot17(&variant, shared, sequence)?;
         note(&outcomes, name, &report);
         must_be_exact(&report)
+    })
+}
+
+/// Saved and loaded again now and then, a tracker gives what it gives undisturbed.
+#[cfg(feature = "snapshot")]
+fn saved_and_loaded(variant: Variant, sequence: &'static str) -> Trial {
+    needing_data(format!("saved/{}/{sequence}", variant.folder), move |shared| {
+        let sequence = place::mot17(shared, sequence)?;
+        let undisturbed = variant.play(&sequence)?;
+        let disturbed = variant.play_interrupted(&sequence, |index, tracker| match index % 17 {
+            0 => Tracker::load(&tracker.save()).expect("what was just saved can be loaded"),
+            _ => tracker,
+        })?;
+        // The very bits, unlike the oracles' four decimals.
+        if disturbed == undisturbed { Ok(()) } else { Err("the outputs differ".into()) }
     })
 }
 

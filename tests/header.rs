@@ -16,6 +16,7 @@ const SOURCES: &[&str] = &[
     "track",
     "particle",
     "tracker",
+    "snapshot",
 ];
 
 fn root() -> &'static Path {

@@ -29,6 +29,8 @@ pub const GT2_ERR_PANIC: i32 = -7;
 /// The handle met an internal error before. A tracker works again after `gt2_tracker_reset`; a config can only be
 /// freed.
 pub const GT2_ERR_POISONED: i32 = -8;
+/// This build of the library leaves the function out.
+pub const GT2_ERR_UNSUPPORTED: i32 = -9;
 /// A field of a detection is out of range.
 pub const GT2_ERR_DETECTION: i32 = -20;
 /// The image's size, stride, format and buffer do not fit together.
@@ -53,6 +55,8 @@ pub const GT2_ERR_PARAMETER_VALUE: i32 = -42;
 pub const GT2_ERR_CONFIG_SYNTAX: i32 = -43;
 /// No live track has that identity.
 pub const GT2_ERR_UNKNOWN_TRACK: i32 = -44;
+/// Bytes that are no snapshot of a tracker, a damaged one, or one of a later version of the library.
+pub const GT2_ERR_SNAPSHOT: i32 = -45;
 
 /// Why a call failed.
 #[derive(Debug)]
@@ -85,6 +89,7 @@ impl From<Error> for Failure {
             Error::UnknownParameter { .. } => GT2_ERR_UNKNOWN_PARAMETER,
             Error::ParameterValue { .. } => GT2_ERR_PARAMETER_VALUE,
             Error::ConfigSyntax(_) => GT2_ERR_CONFIG_SYNTAX,
+            Error::Snapshot(_) => GT2_ERR_SNAPSHOT,
             Error::UnknownTrack(_) => GT2_ERR_UNKNOWN_TRACK,
         };
         Self::new(status, error.to_string())
@@ -122,6 +127,7 @@ pub extern "C" fn gt2_status_str(status: gt2_status) -> *const c_char {
         GT2_ERR_BUFFER_TOO_SMALL => c"buffer too small",
         GT2_ERR_INVALID_TEXT => c"text is not UTF-8",
         GT2_ERR_PANIC => c"internal error",
+        GT2_ERR_UNSUPPORTED => c"not in this build",
         GT2_ERR_POISONED => c"handle poisoned by an internal error",
         GT2_ERR_DETECTION => c"invalid detection",
         GT2_ERR_IMAGE => c"invalid image",
@@ -134,6 +140,7 @@ pub extern "C" fn gt2_status_str(status: gt2_status) -> *const c_char {
         GT2_ERR_UNKNOWN_PARAMETER => c"unknown parameter",
         GT2_ERR_PARAMETER_VALUE => c"invalid parameter value",
         GT2_ERR_CONFIG_SYNTAX => c"invalid configuration text",
+        GT2_ERR_SNAPSHOT => c"invalid snapshot",
         GT2_ERR_UNKNOWN_TRACK => c"unknown track",
         _ => c"unknown status",
     };

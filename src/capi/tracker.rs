@@ -12,7 +12,6 @@ use super::pointer::{require, start, store};
 use super::status::*;
 use super::track::*;
 use super::{structs, tables};
-use crate::config::Config;
 use crate::frame::Detection;
 use crate::track::Output;
 use crate::tracker::Tracker;
@@ -22,7 +21,6 @@ use crate::tracker::Tracker;
 #[repr(C, align(8))]
 pub struct gt2_tracker {
     header: Header,
-    config: Config,
     tracker: Tracker,
     /// The caller's detections; kept for its memory.
     detections: Vec<Detection>,
@@ -69,13 +67,19 @@ unsafe impl Handle for gt2_tracker {
 }
 
 impl gt2_tracker {
-    fn new(config: Config, tracker: Tracker) -> Self {
-        let header = Header::new(Self::TAG);
-        Self { header, config, tracker, detections: Vec::new(), tracks: TrackLists::default() }
+    pub(super) fn new(tracker: Tracker) -> Self {
+        let mut tracks = TrackLists::default();
+        tracks.fill(tracker.output());
+        Self { header: Header::new(Self::TAG), tracker, detections: Vec::new(), tracks }
+    }
+
+    #[cfg(feature = "snapshot")]
+    pub(super) fn inner(&self) -> &Tracker {
+        &self.tracker
     }
 
     unsafe fn step(&mut self, frame: *const gt2_frame) -> Result<(), Failure> {
-        let limit = self.config.common.max_detections as usize;
+        let limit = self.tracker.config().common.max_detections as usize;
         // SAFETY: passed on to the caller.
         let frame = unsafe { read_frame(frame, limit, &mut self.detections) }?;
         let output = self.tracker.step(&frame)?;
@@ -85,7 +89,7 @@ impl gt2_tracker {
 
     fn reset(&mut self) -> Result<(), Failure> {
         // A panic may have left anything behind, so nothing of the old tracker is kept.
-        self.tracker = Tracker::new(&self.config)?;
+        self.tracker = Tracker::new(self.tracker.config())?;
         self.tracks.fill(self.tracker.output());
         self.header.heal();
         Ok(())
@@ -101,8 +105,7 @@ pub unsafe extern "C" fn gt2_tracker_new(config: *const gt2_config, out: *mut *m
     unsafe {
         guard_shared(config, |c| {
             require(out, "out")?;
-            let tracker = Tracker::new(c.config())?;
-            store(out, give(gt2_tracker::new(c.config().clone(), tracker)));
+            store(out, give(gt2_tracker::new(Tracker::new(c.config())?)));
             Ok(())
         })
     }
@@ -296,6 +299,7 @@ pub unsafe extern "C" fn gt2_tracker_particles(
 mod tests {
     use super::super::detection::gt2_detection;
     use super::*;
+    use crate::config::Config;
     use crate::frame::Frame;
     use crate::geometry::{Rect, State};
     use crate::track::{Particle, Track, TrackState};
@@ -326,6 +330,14 @@ mod tests {
 
         fn reset(&mut self) {}
 
+        #[cfg(feature = "snapshot")]
+        fn save(&self, _state: &mut crate::snapshot::Encoder) {}
+
+        #[cfg(feature = "snapshot")]
+        fn load(&mut self, _state: &mut crate::snapshot::Decoder<'_>) -> Result<(), crate::Error> {
+            Ok(())
+        }
+
         fn particles(&self, _id: u64) -> &[Particle] {
             panic!("no particles here");
         }
@@ -334,7 +346,7 @@ mod tests {
     fn fragile_tracker() -> *mut gt2_tracker {
         let config = Config::new("gentrack2").unwrap();
         let tracker = Tracker::with_algorithm(&config, Box::new(Fragile));
-        give(gt2_tracker::new(config, tracker))
+        give(gt2_tracker::new(tracker))
     }
 
     fn frame_of(detections: &[gt2_detection]) -> gt2_frame {

@@ -45,6 +45,7 @@ impl Measurement {
 
 /// The filter.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct AreaRatio {
     u: Axis,
     v: Axis,

@@ -14,6 +14,7 @@ const ASPECT_MEASURED: f64 = 1e-1;
 
 /// The filter.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct AspectHeight {
     u: Axis,
     v: Axis,

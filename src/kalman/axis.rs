@@ -2,6 +2,7 @@
 
 /// Mean and covariance of a coordinate and its velocity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct Axis {
     /// The coordinate.
     pub x: f64,

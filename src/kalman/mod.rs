@@ -32,6 +32,7 @@ const LARGEST: f64 = 1e13;
 
 /// Shares of the box size by which coordinates and their velocities are uncertain (standard deviations).
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct NoiseWeights {
     /// Of a position, per frame and per measurement.
     pub position: f64,
@@ -42,8 +43,20 @@ pub struct NoiseWeights {
 /// The published values: 1/20 and 1/160.
 pub const NOISE_WEIGHTS: NoiseWeights = NoiseWeights { position: 1.0 / 20.0, velocity: 1.0 / 160.0 };
 
+/// What goes into snapshots: anything, in a build that has none.
+#[cfg(feature = "snapshot")]
+pub trait Kept: serde::Serialize + serde::de::DeserializeOwned {}
+#[cfg(feature = "snapshot")]
+impl<T: serde::Serialize + serde::de::DeserializeOwned> Kept for T {}
+
+/// What goes into snapshots: anything, in a build that has none.
+#[cfg(not(feature = "snapshot"))]
+pub trait Kept {}
+#[cfg(not(feature = "snapshot"))]
+impl<T> Kept for T {}
+
 /// What the two-round trackers need of a filter.
-pub trait BoxFilter: Clone + Send {
+pub trait BoxFilter: Clone + Send + Kept {
     /// At rest at a detected box.
     fn new(rect: &Rect) -> Self;
     /// Moves on by `dt` frames.

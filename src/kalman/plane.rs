@@ -4,6 +4,7 @@ use nalgebra::{Matrix2, Vector2};
 
 /// Mean and covariance of two coordinates and their velocities.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct Plane {
     /// The coordinates.
     pub x: Vector2<f64>,

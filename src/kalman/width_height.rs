@@ -8,6 +8,7 @@ use crate::geometry::{Rect, State};
 
 /// The filter.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct WidthHeight {
     centre: Plane,
     size: Plane,

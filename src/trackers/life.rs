@@ -6,6 +6,7 @@ use crate::track::{Track, TrackState};
 
 /// The outer life of a track.
 #[derive(Clone, Debug, Default)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct Life {
     /// Identity.
     pub id: u64,

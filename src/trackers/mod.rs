@@ -19,6 +19,8 @@ use crate::classes::ClassPolicy;
 use crate::error::Error;
 use crate::frame::Frame;
 use crate::parameters::ParameterSet;
+#[cfg(feature = "snapshot")]
+use crate::snapshot::{Decoder, Encoder};
 use crate::track::{Output, Particle};
 use crate::tracker::StepContext;
 
@@ -30,6 +32,14 @@ pub trait TrackingAlgorithm: Send {
 
     /// Forgets all tracks.
     fn reset(&mut self);
+
+    /// Writes down everything that the next steps depend on.
+    #[cfg(feature = "snapshot")]
+    fn save(&self, state: &mut Encoder);
+
+    /// Takes over what [`TrackingAlgorithm::save`] of a tracker with the same parameters has written.
+    #[cfg(feature = "snapshot")]
+    fn load(&mut self, state: &mut Decoder<'_>) -> Result<(), Error>;
 
     /// The particles of a live track.
     fn particles(&self, _id: u64) -> &[Particle] {

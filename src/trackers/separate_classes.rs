@@ -6,6 +6,8 @@ use std::collections::BTreeMap;
 use super::{AlgorithmParameters, TrackingAlgorithm};
 use crate::error::Error;
 use crate::frame::{Detection, Embeddings, Frame};
+#[cfg(feature = "snapshot")]
+use crate::snapshot::{Decoder, Encoder};
 use crate::track::{Output, Particle, Track};
 use crate::tracker::StepContext;
 
@@ -29,6 +31,12 @@ struct ClassTracker {
     live: usize,
 }
 
+impl ClassTracker {
+    fn new(parameters: &AlgorithmParameters) -> Self {
+        Self { inner: parameters.build().expect("these parameters have been built before"), live: 0 }
+    }
+}
+
 impl SeparateClasses {
     /// Without tracks; refuses combinations of parameters that make no sense.
     pub fn new(parameters: &AlgorithmParameters) -> Result<Self, Error> {
@@ -50,10 +58,7 @@ impl SeparateClasses {
         self.order.extend(0..frame.detections.len() as u32);
         self.order.sort_unstable_by_key(|row| (class(*row), *row));
         for rows in self.order.chunk_by(|a, b| class(*a) == class(*b)) {
-            self.classes.entry(class(rows[0])).or_insert_with(|| ClassTracker {
-                inner: self.parameters.build().expect("these parameters have been built before"),
-                live: 0,
-            });
+            self.classes.entry(class(rows[0])).or_insert_with(|| ClassTracker::new(&self.parameters));
         }
     }
 
@@ -101,6 +106,27 @@ impl TrackingAlgorithm for SeparateClasses {
 
     fn reset(&mut self) {
         self.classes.clear();
+    }
+
+    #[cfg(feature = "snapshot")]
+    fn save(&self, state: &mut Encoder) {
+        state.put(&self.classes.len());
+        for (class, tracker) in &self.classes {
+            state.put(&(class, tracker.live));
+            tracker.inner.save(state);
+        }
+    }
+
+    #[cfg(feature = "snapshot")]
+    fn load(&mut self, state: &mut Decoder<'_>) -> Result<(), Error> {
+        self.classes.clear();
+        for _ in 0..state.take::<usize>()? {
+            let (class, live) = state.take()?;
+            let mut tracker = ClassTracker { live, ..ClassTracker::new(&self.parameters) };
+            tracker.inner.load(state)?;
+            self.classes.insert(class, tracker);
+        }
+        Ok(())
     }
 
     fn particles(&self, id: u64) -> &[Particle] {

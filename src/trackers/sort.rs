@@ -9,6 +9,8 @@ use crate::frame::{Detection, Frame};
 use crate::geometry::Rect;
 use crate::kalman::{AreaRatio, Measurement, is_sane};
 use crate::parameters::{only_default_preset, parameters};
+#[cfg(feature = "snapshot")]
+use crate::snapshot::{Decoder, Encoder};
 use crate::track::{Output, Track};
 use crate::tracker::StepContext;
 
@@ -39,6 +41,7 @@ impl SortParameters {
 }
 
 /// A track.
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 struct SortTrack {
     life: Life,
     run: Run,
@@ -141,5 +144,16 @@ impl TrackingAlgorithm for Sort {
 
     fn reset(&mut self) {
         self.tracks.clear();
+    }
+
+    #[cfg(feature = "snapshot")]
+    fn save(&self, state: &mut Encoder) {
+        state.put(&self.tracks);
+    }
+
+    #[cfg(feature = "snapshot")]
+    fn load(&mut self, state: &mut Decoder<'_>) -> Result<(), Error> {
+        self.tracks = state.take()?;
+        Ok(())
     }
 }

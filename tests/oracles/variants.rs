@@ -72,6 +72,15 @@ impl Variant {
 
     /// What the tracker reports, frame by frame.
     pub fn play(&self, sequence: &Sequence) -> Result<Rows, String> {
+        self.play_interrupted(sequence, |_, tracker| tracker)
+    }
+
+    /// The same with what `between` makes of the tracker before each frame, by its index.
+    pub fn play_interrupted(
+        &self,
+        sequence: &Sequence,
+        between: impl Fn(usize, Tracker) -> Tracker,
+    ) -> Result<Rows, String> {
         let tracker = || -> Result<Tracker, gentrack2::Error> {
             let mut config = Config::new(self.tracker)?;
             for (key, value) in &self.settings {
@@ -91,11 +100,17 @@ impl Variant {
                 camera_motion: input.camera_motion.filter(|_| self.camera_motion),
                 ..Frame::new(&input.detections)
             };
+            tracker = between(index, tracker);
             let output = tracker.step(&frame).map_err(|e| format!("frame {}: {e}", index + 1))?;
             rows.push(output.reported.iter().map(|t| Row { id: t.id, rect: t.rect }).collect());
         }
         Ok(rows)
     }
+}
+
+/// GenTrack2 with all that the sequences have; it has no oracle.
+pub fn gentrack2() -> Variant {
+    Variant::plain("gentrack2", 0.0, MOVING_CAMERA).with_camera_motion(true).with_embeddings(true)
 }
 
 /// All of them.

@@ -10,6 +10,7 @@ use crate::trackers::life::{Life, is_beyond, presentable, presentable_velocity};
 
 /// Where a track stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub enum Standing {
     Tentative,
     Confirmed,
@@ -21,6 +22,7 @@ pub enum Standing {
 }
 
 /// A track.
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct ConfTrackTrack {
     pub life: Life,
     pub filter: WidthHeight,

@@ -14,6 +14,8 @@ use super::pairing::Pairing;
 use crate::embedding::{MeanEmbedding, UnitRows};
 use crate::frame::Frame;
 use crate::kalman::{BoxFilter, is_sane};
+#[cfg(feature = "snapshot")]
+use crate::snapshot::{Decoder, Encoder};
 use crate::track::Output;
 use crate::tracker::StepContext;
 
@@ -228,5 +230,16 @@ impl TrackingAlgorithm for ConfTrack {
         for track in self.tracks.drain(..) {
             self.work.retire(track.embedding);
         }
+    }
+
+    #[cfg(feature = "snapshot")]
+    fn save(&self, state: &mut Encoder) {
+        state.put(&self.tracks);
+    }
+
+    #[cfg(feature = "snapshot")]
+    fn load(&mut self, state: &mut Decoder<'_>) -> Result<(), crate::Error> {
+        self.tracks = state.take()?;
+        Ok(())
     }
 }

@@ -15,6 +15,8 @@ use crate::embedding::{Gallery, UnitRows};
 use crate::frame::{Detection, Frame};
 use crate::geometry::Rect;
 use crate::kalman::{AspectHeight, BoxFilter, is_sane};
+#[cfg(feature = "snapshot")]
+use crate::snapshot::{Decoder, Encoder};
 use crate::track::{Output, Track, TrackState};
 use crate::tracker::StepContext;
 
@@ -24,6 +26,7 @@ use gated_pairs::GatedPairs;
 const BEYOND: f64 = 1e-5;
 
 /// A track.
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 struct DeepTrack {
     life: Life,
     filter: AspectHeight,
@@ -262,5 +265,16 @@ impl TrackingAlgorithm for DeepSort {
         for track in self.tracks.drain(..) {
             self.work.retire(track.gallery);
         }
+    }
+
+    #[cfg(feature = "snapshot")]
+    fn save(&self, state: &mut Encoder) {
+        state.put(&self.tracks);
+    }
+
+    #[cfg(feature = "snapshot")]
+    fn load(&mut self, state: &mut Decoder<'_>) -> Result<(), crate::Error> {
+        self.tracks = state.take()?;
+        Ok(())
     }
 }

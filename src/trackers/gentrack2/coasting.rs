@@ -21,6 +21,7 @@ const RIGHT: f64 = 0.5;
 
 /// The scene's record of predictions of lost tracks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct CoastRecord {
     right: f64,
     total: f64,

@@ -43,6 +43,8 @@ pub use parameters::*;
 use crate::classes::ClassRule;
 use crate::frame::Frame;
 use crate::geometry::{Rect, State};
+#[cfg(feature = "snapshot")]
+use crate::snapshot::{Decoder, Encoder};
 use crate::track::{Output, Particle};
 use crate::tracker::StepContext;
 use crate::trackers::TrackingAlgorithm;
@@ -74,6 +76,7 @@ pub struct GenTrack2 {
 
 /// What is kept from frame to frame.
 #[derive(Default)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 struct Memory {
     /// Live targets, by ascending identity.
     targets: Vec<Target>,
@@ -322,6 +325,18 @@ impl TrackingAlgorithm for GenTrack2 {
         self.work.spare.append(&mut self.memory.targets);
         self.memory = Memory::default();
         self.work.particles.clear();
+    }
+
+    #[cfg(feature = "snapshot")]
+    fn save(&self, state: &mut Encoder) {
+        state.put(&self.memory);
+    }
+
+    #[cfg(feature = "snapshot")]
+    fn load(&mut self, state: &mut Decoder<'_>) -> Result<(), crate::Error> {
+        self.memory = state.take()?;
+        self.work.particles.fill(&self.memory.targets);
+        Ok(())
     }
 
     fn particles(&self, id: u64) -> &[Particle] {

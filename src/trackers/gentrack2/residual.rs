@@ -20,6 +20,7 @@ const SCENE_RATE: f64 = 0.01;
 
 /// A track's running mean square error.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct Residual {
     mean_square: f64,
     count: u32,
@@ -27,6 +28,7 @@ pub struct Residual {
 
 /// The scene's running mean square error.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct SceneResidual(f64);
 
 impl Default for SceneResidual {

@@ -14,6 +14,7 @@ use super::residual::Residual;
 
 /// A particle: a hypothesis of the target's state, `{X^s, V^s}`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct Hypothesis {
     /// State in pixels.
     pub state: State,
@@ -25,6 +26,7 @@ pub struct Hypothesis {
 
 /// A state that a detection confirmed, and when.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct Observation {
     /// Time in ticks.
     pub time: f64,
@@ -34,6 +36,7 @@ pub struct Observation {
 
 /// What a track's detection of this frame was.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub enum Match {
     /// None.
     #[default]
@@ -56,6 +59,7 @@ impl Match {
 
 /// A target.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct Target {
     /// Identity `K`, ages, and the detection last taken.
     pub life: Life,
@@ -102,6 +106,7 @@ pub struct Target {
     /// Whether the swarm of this frame could compare looks.
     pub looked_at: bool,
     /// HOG vector learnt from strong updates; valid if `has_template`.
+    #[cfg_attr(feature = "snapshot", serde(with = "crate::snapshot::numbers"))]
     pub template: Box<Descriptor>,
     /// Whether there is a template.
     pub has_template: bool,

@@ -20,6 +20,7 @@ const MOST: f64 = 1.4;
 
 /// A running correlation of pairs.
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 struct Correlation {
     product: f64,
     power: f64,
@@ -39,6 +40,7 @@ impl Correlation {
 
 /// The scene's record of successive errors.
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct Whiteness {
     centre: Correlation,
     size: Correlation,

@@ -10,6 +10,7 @@ const EPSILON: f64 = 1e-6;
 
 /// A direction, of length 1 but for points that coincide.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct Direction {
     x: f64,
     y: f64,

@@ -22,6 +22,8 @@ use crate::assignment::UNMATCHED;
 use crate::frame::{Detection, Frame};
 use crate::geometry::Rect;
 use crate::kalman::is_sane;
+#[cfg(feature = "snapshot")]
+use crate::snapshot::{Decoder, Encoder};
 use crate::track::Output;
 use crate::tracker::StepContext;
 
@@ -231,5 +233,16 @@ impl TrackingAlgorithm for OcSort {
 
     fn reset(&mut self) {
         self.work.spare.extend(self.tracks.drain(..).map(|t| t.observations));
+    }
+
+    #[cfg(feature = "snapshot")]
+    fn save(&self, state: &mut Encoder) {
+        state.put(&self.tracks);
+    }
+
+    #[cfg(feature = "snapshot")]
+    fn load(&mut self, state: &mut Decoder<'_>) -> Result<(), crate::Error> {
+        self.tracks = state.take()?;
+        Ok(())
     }
 }

@@ -16,6 +16,7 @@ const EPSILON: f64 = 1e-6;
 
 /// The latest observations, by the track's age.
 #[derive(Default)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct Observations {
     list: VecDeque<(u64, Rect, f64)>,
 }
@@ -48,6 +49,7 @@ impl Observations {
 }
 
 /// A track.
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct ObservedTrack {
     pub life: Life,
     pub run: Run,

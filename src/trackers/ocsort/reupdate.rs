@@ -7,6 +7,7 @@ use crate::kalman::{AreaRatio, Measurement};
 
 /// What a filter needs to remember for it.
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct GapMemory {
     /// The last measurement given to the filter.
     last: Option<State>,

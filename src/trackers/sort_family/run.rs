@@ -5,6 +5,7 @@ use crate::trackers::life::is_beyond;
 
 /// Counters that decide what is reported and who goes.
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct Run {
     /// Matches since the last miss; the birth is none.
     streak: i64,

@@ -9,6 +9,7 @@ use crate::trackers::life::{Life, presentable, presentable_velocity};
 
 /// Where a member stands, or goes in this frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub enum Fate {
     /// Seen when the detector last ran.
     Tracked,
@@ -26,6 +27,7 @@ pub enum Fate {
 
 /// A track.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct Member<F> {
     pub life: Life,
     pub filter: F,

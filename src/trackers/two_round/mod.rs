@@ -17,6 +17,8 @@ pub(super) use parameters::two_round_parameters;
 use crate::embedding::{MeanEmbedding, UnitRows};
 use crate::frame::Frame;
 use crate::kalman::{BoxFilter, is_sane};
+#[cfg(feature = "snapshot")]
+use crate::snapshot::{Decoder, Encoder};
 use crate::track::Output;
 use crate::tracker::StepContext;
 use crate::trackers::TrackingAlgorithm;
@@ -323,5 +325,19 @@ impl<F: BoxFilter> TrackingAlgorithm for TwoRound<F> {
         }
         self.tracked = 0;
         self.now = 0.0;
+    }
+
+    #[cfg(feature = "snapshot")]
+    fn save(&self, state: &mut Encoder) {
+        state.put(&(&self.members, self.tracked, self.now));
+    }
+
+    #[cfg(feature = "snapshot")]
+    fn load(&mut self, state: &mut Decoder<'_>) -> Result<(), crate::Error> {
+        (self.members, self.tracked, self.now) = state.take()?;
+        if self.tracked > self.members.len() {
+            return Err(crate::Error::Snapshot("has fewer tracks than it says".to_string()));
+        }
+        Ok(())
     }
 }
