@@ -166,8 +166,8 @@ fn live_bytes_do_not_grow_and_warm_steps_do_not_allocate() {
             if given.images && algorithm != Algorithm::GenTrack2 {
                 continue;
             }
-            // Marks at the same point of the input's period, so that as many walkers are in the image.
-            let marks = if given.images { [500, 1_000, 2_000] } else { [5_000, 10_000, 20_000] };
+            // Marks at the same point of the input's period, so that as many walkers are in the image, and as many remembered.
+            let marks = if given.images { [1_000, 1_500, 3_000] } else { [5_000, 10_000, 20_000] };
             let readings = run(algorithm, given, &marks);
             println!(
                 "{name}, {given:?}: live bytes {:?} after {marks:?} frames, {} identities, {} allocations",

@@ -153,6 +153,10 @@ fn setups(algorithm: Algorithm) -> Vec<Setup> {
             new(crowd(), NOTHING, &[("cost_gate", "0.15")]),
             new(crowd(), EMBEDDINGS, &[("cost_gate", "0.1"), ("min_iou", "0.02")]),
             new(hidden(), NOTHING, &[("reacquire_reach", "0")]),
+            // Those who were lost come back, sooner than anybody could go far and beside others.
+            new(stage::turning_back_unseen(0), IMAGE, &[("recognition_speed", "0.001")]),
+            new(stage::turning_back_unseen(0), IMAGE, &[("recognition_margin", "0.2")]),
+            new(crowd(), IMAGE, &[("cost_gate", "0.02"), ("hog_gate", "0.1"), ("recognition_margin", "0.01")]),
         ]),
         Algorithm::OcSort => {
             setups.extend(given_more);

@@ -6,7 +6,7 @@ mod simulator;
 
 use std::collections::BTreeSet;
 
-use gentrack2::{Config, Detection, Frame, Track, TrackState, Tracker};
+use gentrack2::{Config, Detection, Frame, ImageView, PixelFormat, Track, TrackState, Tracker};
 use simulator::contract::{Contract, all_tracks};
 use simulator::driver::{Feed, tracker};
 use simulator::scene::Scene;
@@ -56,6 +56,51 @@ fn looks_decide_where_motion_misleads() {
     };
     let (with, without) = (kept(true), kept(false));
     assert!(with >= 15 && without <= 5, "kept in {with} of 20 with the image, in {without} without");
+}
+
+/// Where nobody could know where somebody went, it is the looks that tell who comes back.
+#[test]
+fn who_comes_back_is_recognised() {
+    for image in [true, false] {
+        for seed in IMAGE_SEEDS {
+            let scene = stage::turning_back_unseen(seed);
+            let mut tracker = tracker(seed);
+            let mut contract = Contract::default();
+            let mut shown = BTreeSet::new();
+            for seen in scene.play(image) {
+                let output = Feed::with_image(image).step(&mut tracker, &scene, &seen).unwrap();
+                contract.check(&seen.detections, output);
+                let on_it = |track: &&Track| seen.source[track.detection_index.unwrap()] == Some(0);
+                let matched = output.reported.iter().filter(|t| t.frames_since_match == 0);
+                shown.extend(matched.filter(on_it).map(|t| t.id));
+                // Nobody is shown where nobody was found for long.
+                assert!(output.reported.iter().all(|t| t.frames_since_match < 30), "seed {seed}");
+            }
+            assert_eq!(shown.len(), if image { 1 } else { 2 }, "seed {seed}: {shown:?}");
+        }
+    }
+}
+
+/// Those who are kept for their looks alone do not take the place of others.
+#[test]
+fn who_is_only_remembered_makes_room() {
+    let mut config = Config::new("gentrack2").unwrap();
+    config.set_text("max_tracks", "3").unwrap();
+    let mut tracker = Tracker::new(&config).unwrap();
+    let texture: Vec<u8> = (0..768u32 * 576).map(|i| (i % 768 * 5 + i / 768 * 3) as u8).collect();
+    let image = ImageView::new(&texture, 768, 576, 0, PixelFormat::Gray8).unwrap();
+    let row = |top: f64| (0..3).map(move |i| Detection::new(100.0 + 90.0 * i as f64, top, 40.0, 100.0, 0.9));
+    let (first, second): (Vec<_>, Vec<_>) = (row(10.0).collect(), row(400.0).collect());
+    let mut contract = Contract::default();
+    let mut shown = 0;
+    for frame in 0..100 {
+        let detections = if frame < 20 { &first } else { &second };
+        let output = tracker.step(&Frame { image: Some(image), ..Frame::new(detections) }).unwrap();
+        contract.check(detections, output);
+        assert!(all_tracks(output).count() <= 3, "frame {frame}");
+        shown = output.reported.iter().filter(|t| t.rect.top > 300.0).count();
+    }
+    assert_eq!(shown, 3);
 }
 
 mod moving_camera {

@@ -11,13 +11,35 @@ use super::bytes::Bytes;
 const ALGORITHMS: [&CStr; 9] =
     [c"gentrack2", c"sort", c"deepsort", c"bytetrack", c"ocsort", c"botsort", c"smiletrack", c"conftrack", c"none"];
 const VALUES: [&CStr; 16] = [
-    c"0", c"1", c"true", c"false", c"0.5", c"-1", c"1e308", c"nan", c"inf", c"3", c"30", c"ignore", c"same_class",
-    c"separate", c"paper", c"1,2,3,4; 5,6,7,8",
+    c"0",
+    c"1",
+    c"true",
+    c"false",
+    c"0.5",
+    c"-1",
+    c"1e308",
+    c"nan",
+    c"inf",
+    c"3",
+    c"30",
+    c"ignore",
+    c"same_class",
+    c"separate",
+    c"paper",
+    c"1,2,3,4; 5,6,7,8",
 ];
 /// Keys that are set more often than chance would.
 const KEYS: [&CStr; 10] = [
-    c"class_policy", c"preset", c"max_tracks", c"max_detections", c"frame_rate", c"first_id", c"particles", c"seed",
-    c"min_iou", c"no_such_key",
+    c"class_policy",
+    c"preset",
+    c"max_tracks",
+    c"max_detections",
+    c"frame_rate",
+    c"first_id",
+    c"particles",
+    c"seed",
+    c"min_iou",
+    c"no_such_key",
 ];
 /// Bytes of an image; larger ones are not handed in.
 const PIXELS: usize = 1 << 16;

@@ -16,14 +16,14 @@ pub type Descriptor = [f32; DESCRIPTOR_LEN];
 /// The descriptor of a box without texture.
 pub const EMPTY: Descriptor = [0.0; DESCRIPTOR_LEN];
 
-/// Cosine similarity of two unit-norm descriptors (`f_s` of the paper's eq. 5) in `[0, 1]`; 0 when either is
+/// Cosine similarity of two unit-norm vectors (`f_s` of the paper's eq. 5) in `[0, 1]`; 0 when either is
 /// [`EMPTY`].
-pub fn cosine(a: &Descriptor, b: &Descriptor) -> f32 {
+pub fn cosine<const N: usize>(a: &[f32; N], b: &[f32; N]) -> f32 {
     dot(a, b).min(1.0)
 }
 
 /// Scales to unit Euclidean norm; an all-zero vector stays.
-pub fn normalize(descriptor: &mut Descriptor) {
+pub fn normalize<const N: usize>(descriptor: &mut [f32; N]) {
     let squared = dot(descriptor, descriptor);
     if squared > 0.0 {
         let scale = 1.0 / squared.sqrt();
@@ -31,17 +31,21 @@ pub fn normalize(descriptor: &mut Descriptor) {
     }
 }
 
+/// Most sums that run side by side.
+const MAX_LANES: usize = DESCRIPTOR_LEN / 8;
+
 /// The sum of products. Flat loops that vectorise, in an order that does not depend on the machine.
-fn dot(a: &Descriptor, b: &Descriptor) -> f32 {
-    const LANES: usize = DESCRIPTOR_LEN / 8;
-    let mut sums = [0.0f32; LANES];
-    for i in 0..LANES {
-        let product = |part: usize| a[i + part * LANES] * b[i + part * LANES];
+fn dot<const N: usize>(a: &[f32; N], b: &[f32; N]) -> f32 {
+    const { assert!(N.is_power_of_two() && N >= 8 && N <= 8 * MAX_LANES) };
+    let lanes = N / 8;
+    let mut sums = [0.0f32; MAX_LANES];
+    for i in 0..lanes {
+        let product = |part: usize| a[i + part * lanes] * b[i + part * lanes];
         let low = (product(0) + product(1)) + (product(2) + product(3));
         let high = (product(4) + product(5)) + (product(6) + product(7));
         sums[i] = low + high;
     }
-    let mut width = LANES / 2;
+    let mut width = lanes / 2;
     while width > 0 {
         let (left, right) = sums.split_at_mut(width);
         left.iter_mut().zip(right).for_each(|(l, r)| *l += *r);

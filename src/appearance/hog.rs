@@ -8,6 +8,7 @@
 use super::descriptor::{CELLS_X, CELLS_Y, Descriptor, EMPTY, normalize};
 use super::gray::sample_row;
 use super::orientation::{BINS, Directions, MAX_VOTE};
+use super::tones::{ASIDE, LEVELS, STRIPES, Stripe, Tones};
 use crate::geometry::Rect;
 use crate::image::ImageView;
 
@@ -163,6 +164,30 @@ impl HogWorkspace {
         }
         normalize(out);
         *out != EMPTY
+    }
+
+    /// Writes how bright `candidate` is, its sides left out, and returns true; or returns false, with `out` left alone,
+    /// where [`describe`](Self::describe) would find no cells.
+    pub fn tones(&self, candidate: &Rect, out: &mut Tones) -> bool {
+        let Some((columns, rows)) = self.stripes(candidate) else { return false };
+        for (y, levels) in out.chunks_exact_mut(LEVELS).enumerate() {
+            let mut stripe = Stripe::default();
+            for row in rows[y]..rows[y + 1] {
+                // The gray samples have a border of one.
+                stripe.add(&self.gray[(row + 1) * GRAY_STRIDE + columns[0] + 1..][..columns[1] - columns[0]]);
+            }
+            stripe.write((rows[y + 1] - rows[y]) * (columns[1] - columns[0]), levels);
+        }
+        true
+    }
+
+    /// Grid lines of the inner part of the candidate, and of its stripes.
+    fn stripes(&self, candidate: &Rect) -> Option<([usize; 2], [usize; STRIPES + 1])> {
+        self.cells(candidate)?;
+        let frame = self.frame.as_ref()?;
+        let (left, width) = (candidate.left + ASIDE * candidate.width, (1.0 - 2.0 * ASIDE) * candidate.width);
+        let columns = frame.horizontal.cell_edges(left, width, OVERHANG_X)?;
+        Some((columns, frame.vertical.cell_edges(candidate.top, candidate.height, OVERHANG_Y)?))
     }
 
     /// Grid lines of the candidate's cells, and the corners in a row of the grid.
@@ -388,6 +413,55 @@ mod tests {
         assert_eq!(out, template);
         assert!(hog.describe(&BOX, &mut out));
         assert!(cosine(&out, &template) < 0.95);
+    }
+
+    #[test]
+    fn tones_go_from_head_to_foot_and_leave_the_sides_out() {
+        // The upper half of the box is at 40, the middle of the third level; the lower half at 100, three quarters of
+        // the way from the sixth (88) to the seventh (104). Beside the inner two thirds, x 34..50, all is white.
+        let data = picture(|x, y| match (34..50).contains(&x) {
+            true if y < 64 => 40,
+            true => 100,
+            false => 255,
+        });
+        let mut hog = HogWorkspace::new();
+        assert!(hog.prepare(&gray(&data), &BOX, 1.6));
+        let mut out = [0.0; _];
+        assert!(hog.tones(&BOX, &mut out));
+        for (i, &value) in out.iter().enumerate() {
+            let share: f32 = match (i / LEVELS < STRIPES / 2, i % LEVELS) {
+                (true, 2) => 1.0,
+                (false, 5) => 0.25,
+                (false, 6) => 0.75,
+                _ => 0.0,
+            };
+            assert!((value - (share / STRIPES as f32).sqrt()).abs() < 1e-6, "{i}: {value}");
+        }
+        // A stripe further down one stripe less is dark.
+        assert!(hog.tones(&Rect::new(30.0, 46.0, 24.0, 48.0), &mut out));
+        let dark = out.chunks_exact(LEVELS).filter(|stripe| stripe[2] > 0.0).count();
+        assert_eq!(dark, STRIPES / 2 - 1);
+    }
+
+    #[test]
+    fn tones_are_refused_where_there_are_no_cells() {
+        let data = picture(texture);
+        let mut hog = HogWorkspace::new();
+        let mut out = [7.0; _];
+        assert!(!hog.tones(&BOX, &mut out));
+        assert!(hog.prepare(&gray(&data), &BOX, 1.5));
+        for candidate in [
+            Rect::new(23.0, 28.0, 24.0, 48.0),
+            Rect::new(30.0, 27.0, 24.0, 48.0),
+            Rect::new(30.0, 40.0, 7.0, 16.0),
+            Rect::new(30.0, f64::NAN, 32.0, 64.0),
+        ] {
+            assert!(!hog.tones(&candidate, &mut out), "{candidate:?}");
+            assert!(out.iter().all(|&value| value == 7.0), "{candidate:?}");
+        }
+        assert!(hog.tones(&Rect::new(24.0, 28.0, 36.0, 72.0), &mut out));
+        let norm: f32 = out.iter().map(|v| v * v).sum();
+        assert!((norm - 1.0).abs() < 1e-5, "{norm}");
     }
 
     #[test]

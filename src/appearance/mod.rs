@@ -1,4 +1,5 @@
-//! What targets look like: HOG descriptors of many candidate boxes, taken straight from the caller's image.
+//! What targets look like: HOG descriptors of many candidate boxes, and how bright the boxes are, taken straight from the
+//! caller's image.
 //!
 //! The appearance fitness of the paper (eq. 5) is `f_s = <X_i, X_j> / (|X_i| |X_j|)`, the cosine of the non-negative HOG
 //! vectors of a particle's box and of its target. A target's particles overlap heavily, so the gradients around it are
@@ -27,7 +28,9 @@ mod descriptor;
 mod gray;
 mod hog;
 mod orientation;
+mod tones;
 
 pub use descriptor::{CELLS_X, CELLS_Y, DESCRIPTOR_LEN, Descriptor, EMPTY, cosine, normalize};
 pub use hog::{HogWorkspace, MAX_MARGIN, MIN_HEIGHT, MIN_WIDTH};
 pub use orientation::BINS;
+pub use tones::{LEVELS, STRIPES, TONES_LEN, Tones};

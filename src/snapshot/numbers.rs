@@ -8,8 +8,8 @@ pub fn serialize<S: Serializer, const N: usize>(array: &[f32; N], serializer: S)
 }
 
 /// Reads a list that must be as long as the array.
-pub fn deserialize<'de, D: Deserializer<'de>, const N: usize>(deserializer: D) -> Result<Box<[f32; N]>, D::Error> {
-    let list = Vec::deserialize(deserializer)?;
+pub fn deserialize<'de, D: Deserializer<'de>, const N: usize>(deserializer: D) -> Result<[f32; N], D::Error> {
+    let list: Vec<f32> = Vec::deserialize(deserializer)?;
     let length = list.len();
-    list.into_boxed_slice().try_into().map_err(|_| de::Error::invalid_length(length, &"the array's length"))
+    list.try_into().map_err(|_| de::Error::invalid_length(length, &"the array's length"))
 }

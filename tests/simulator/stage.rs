@@ -101,6 +101,17 @@ pub fn meeting_and_turning_back(seed: u64) -> Scene {
     mirrored(Scene::new(seed, 5.0, vec![left, right]))
 }
 
+/// A walker turns back while the detector misses it for two and a half seconds: by motion it would be far away, and its
+/// track would have ended.
+pub fn turning_back_unseen(seed: u64) -> Scene {
+    let mut vary = variation(seed);
+    let (speed, y) = (WALK * vary.between(0.9, 1.1), 288.0 + vary.between(-40.0, 40.0));
+    let path = Path::from(0.0, 384.0 - 2.5 * speed, y).walk(speed, 0.0, 3.0).walk(-speed, 0.0, 6.0);
+    let mut walker = Object::new(40.0, 100.0, 1.0, path);
+    walker.missed = Some((1.8, 4.3));
+    mirrored(Scene::new(seed, 6.0, vec![walker]))
+}
+
 /// Nine targets cross the image one after the other, in three lanes and both directions; each enters at an edge and
 /// leaves at the other, and where one has left another comes in a second later.
 pub fn entering_and_leaving(seed: u64) -> Scene {

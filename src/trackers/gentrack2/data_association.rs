@@ -1,13 +1,12 @@
 //! Data association: the cost matrix of eq. 7-8 averaged over the particles, its gates, and the assignment.
 
-use crate::appearance::{HogWorkspace, cosine};
+use crate::appearance::HogWorkspace;
 use crate::assignment::{Assignment, Edge, UNMATCHED};
 use crate::candidates::OverlapSweep;
 use crate::classes::ClassRule;
 use crate::geometry::{Rect, State};
 use crate::image::ImageView;
 
-use super::fitness::appearance;
 use super::observations::{Observations, Observed};
 use super::parameters::GenTrack2Parameters;
 use super::residual::SceneResidual;
@@ -35,7 +34,7 @@ pub struct Sight<'a, 'i> {
 impl Sight<'_, '_> {
     /// Whether looks take part in the cost of a target's pairs.
     fn speaks(&self, p: &GenTrack2Parameters, target: &Target) -> bool {
-        p.hog_cost > 0.0 && self.image.is_some() && target.has_template
+        p.hog_cost > 0.0 && self.image.is_some() && target.has_looks
     }
 }
 
@@ -84,7 +83,7 @@ impl DataAssociation {
         columns.extend((0..observations.len()).map(|j| widened(&observations.get(j).state, reach)));
         for &(row, column) in self.sweep.pairs(rows, columns) {
             let (target, observed) = (&targets[row as usize], observations.get(column as usize));
-            if !rule.allows(target.life.last.class_id, observed.detection.class_id) {
+            if target.dormant || !rule.allows(target.life.last.class_id, observed.detection.class_id) {
                 continue;
             }
             // Where looks speak, motion need not be taken less seriously.
@@ -93,7 +92,7 @@ impl DataAssociation {
             cost += embedding_part(p, target, observations, column as usize);
             // Looking is dear: not where the pair is out already.
             if cost <= p.cost_gate + p.hog_gate {
-                cost += hog_part(p, target, observations, column as usize, sight);
+                cost += looks_part(p, target, observations, column as usize, sight);
             }
             if cost <= p.cost_gate {
                 self.edges.push(Edge { row, column, cost });
@@ -178,38 +177,40 @@ fn overlap(p: &GenTrack2Parameters, a: &State, b: &State) -> f64 {
     iou * (shared / whole).sqrt()
 }
 
-/// Whether what is seen of a detection speaks for a target, as far as anything is.
-pub fn looks_alike(
-    p: &GenTrack2Parameters,
-    target: &Target,
-    observations: &mut Observations,
-    index: usize,
-    sight: &mut Sight<'_, '_>,
-) -> bool {
-    embedding_part(p, target, observations, index) <= 0.0 && hog_part(p, target, observations, index, sight) <= 0.0
-}
-
 /// Weighted embedding dissimilarity less the room that the gate gives for it.
-fn embedding_part(p: &GenTrack2Parameters, target: &Target, observations: &Observations, column: usize) -> f64 {
+pub fn embedding_part(p: &GenTrack2Parameters, target: &Target, observations: &Observations, column: usize) -> f64 {
     let distance = observations.embedding(column).and_then(|seen| target.embedding.distance(seen));
     distance.map_or(0.0, |distance| p.embedding_cost * 0.5 * distance - p.embedding_gate)
 }
 
-/// Weighted HOG dissimilarity less the room that the gate gives for it.
-fn hog_part(
+/// Weighted unlikeness less the room that the gate gives for it.
+fn looks_part(
     p: &GenTrack2Parameters,
     target: &Target,
     observations: &mut Observations,
     column: usize,
     sight: &mut Sight<'_, '_>,
 ) -> f64 {
-    if p.hog_cost == 0.0 || !target.has_template {
+    if p.hog_cost == 0.0 {
         return 0.0;
     }
-    match observations.descriptor(column, sight.image, sight.hog) {
-        Some(seen) => p.hog_cost * (1.0 - appearance(cosine(seen, &target.template) as f64, p.hog_offset)) - p.hog_gate,
-        None => 0.0,
+    let unlike = unlikeness(p, target, observations, column, sight);
+    unlike.map_or(0.0, |unlike| p.hog_cost * unlike - p.hog_gate)
+}
+
+/// How little a detection looks like a target; `None` where that cannot be told.
+pub fn unlikeness(
+    p: &GenTrack2Parameters,
+    target: &Target,
+    observations: &mut Observations,
+    column: usize,
+    sight: &mut Sight<'_, '_>,
+) -> Option<f64> {
+    if !target.has_looks {
+        return None;
     }
+    let seen = observations.looks(column, sight.image, sight.hog)?;
+    Some(target.looks.unlikeness(p, seen))
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@
 //! | swarm guidance, eq. 4-6 | [`swarm`], [`fitness`], [`resampling`] |
 //! | data association, eq. 7-8 | [`data_association`], [`observations`], [`residual`] |
 //! | strong tracks, eq. 9 | [`strong_update`], [`whiteness`], [`appearance_model`] |
-//! | new tracks, eq. 10 | [`new_tracks`], [`reacquisition`] |
+//! | new tracks, eq. 10 | [`new_tracks`], [`reacquisition`], [`recognition`] |
 //! | weak tracks, eq. 11-14 | [`weak_motion`], [`common_motion`], [`ageing`], [`covering`] |
 //! | removal, eq. 15 | [`removal`] |
 //! | velocity regression, eq. 16 | [`velocity_regression`] |
@@ -27,6 +27,7 @@ mod observations;
 mod parameters;
 mod particle_sampling;
 mod reacquisition;
+mod recognition;
 mod removal;
 mod reporting;
 mod resampling;
@@ -154,11 +155,11 @@ impl GenTrack2 {
         work.neighbours.search(&work.states, p.neighbour_radius, |_| true);
         work.predictions.clear();
         work.predictions.extend(targets.iter().map(|t| (t.predicted, t.velocity)));
-        for (index, target) in targets.iter_mut().enumerate() {
+        for (index, target) in targets.iter_mut().enumerate().filter(|(_, target)| !target.dormant) {
             resampling::refill(target, p.particles as usize);
             particle_sampling::sample(p, target, ticks);
             let looking = p.lambda_s > 0.0
-                && target.has_template
+                && target.has_looks
                 && frame.image.is_some_and(|i| work.swarm.hog.prepare(&i, &target.predicted.into(), SEARCH_MARGIN));
             let neighbours = work.neighbours.of(index).iter().map(|j| work.predictions[*j as usize]);
             work.swarm.guide(p, target, neighbours, ticks, looking);
@@ -219,7 +220,9 @@ impl GenTrack2 {
             };
             let trusted = work.trusted.over(targets, near);
             let target = &mut targets[index];
-            target.state = weak_motion::moved(p, target, trusted.as_ref(), ticks);
+            if !target.dormant {
+                target.state = weak_motion::moved(p, target, trusted.as_ref(), ticks);
+            }
             target.state.u += shift.0;
             target.state.v += shift.1;
             target.covered = target.covered.max(covered[index]);
@@ -246,16 +249,14 @@ impl GenTrack2 {
             let observed = work.observations.get(index as usize);
             let (row, detection) = (observed.row, observed.detection);
             let mut sight = Sight { image: frame.image.as_ref(), hog: &mut work.swarm.hog };
-            if let Some(found) = reacquisition::find(
-                p,
-                &memory.targets[..known],
-                &mut work.observations,
-                index as usize,
-                rule,
-                &mut sight,
-            ) {
+            let (lost, seen, number) = (&memory.targets[..known], &mut work.observations, index as usize);
+            let found = reacquisition::find(p, lost, seen, number, rule, &mut sight)
+                .or_else(|| recognition::find(p, lost, seen, number, rule, &mut sight));
+            if let Some(found) = found {
                 let target = &mut memory.targets[found];
-                memory.record.found(target, &detection.rect);
+                if !target.dormant {
+                    memory.record.found(target, &detection.rect);
+                }
                 target.restart_motion(&detection, index);
                 strong_update::update(p, target, row, &detection, &Trust::NOMINAL);
                 work.learn(p, target, index as usize, frame, memory.time, ticks);
@@ -271,24 +272,30 @@ impl GenTrack2 {
         }
     }
 
-    fn remove_expired(&mut self, frame_size: Option<(u32, u32)>, output: &mut Output) {
+    /// `full` says that there is no room for new tracks: then nobody is only remembered.
+    fn remove_expired(&mut self, frame_size: Option<(u32, u32)>, full: bool, output: &mut Output) {
         let (p, work, memory) = (&self.parameters, &mut self.work, &mut self.memory);
         let record = &mut memory.record;
-        let ended = memory.targets.extract_if(.., |t| removal::is_expired(p, t));
-        work.spare.extend(ended.inspect(|target| {
+        let ended = memory.targets.extract_if(.., |target| {
+            if !target.dormant && !removal::is_given_up(p, target) {
+                return false;
+            }
             // Who went out of the image says nothing about predictions within.
-            if !removal::is_outside(target, frame_size) {
+            if !target.dormant && !removal::is_outside(target, frame_size) {
                 record.gone(p, target);
             }
-            output.ended.push(target.life.id);
-        }));
+            target.dormant = !full && !removal::is_void(target) && recognition::is_remembered(p, target);
+            !target.dormant
+        });
+        work.spare.extend(ended.inspect(|target| output.ended.push(target.life.id)));
     }
 
     fn report(&mut self, frame_size: Option<(u32, u32)>, detector_ran: bool, output: &mut Output) {
         let (p, memory) = (&self.parameters, &mut self.memory);
         for target in &mut memory.targets {
             if detector_ran {
-                let predicted = !removal::is_outside(target, frame_size)
+                let predicted = !target.dormant
+                    && !removal::is_outside(target, frame_size)
                     && coasting::is_reported(p, target, &memory.scene, &memory.record);
                 target.reported = target.confirmed && (target.is_strong() || predicted);
             }
@@ -317,7 +324,8 @@ impl TrackingAlgorithm for GenTrack2 {
         if detector_ran {
             self.start_tracks(frame, context, ticks);
         }
-        self.remove_expired(frame.size(), output);
+        let full = self.memory.targets.len() >= context.max_tracks;
+        self.remove_expired(frame.size(), full, output);
         self.report(frame.size(), detector_ran, output);
     }
 

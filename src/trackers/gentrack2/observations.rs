@@ -1,7 +1,7 @@
 //! The detections of one frame as the steps use them: the usable ones, in an order that does not depend on the
 //! caller's, with what they look like.
 
-use crate::appearance::{Descriptor, HogWorkspace};
+use crate::appearance::HogWorkspace;
 use crate::candidates::OverlapSweep;
 use crate::classes::ClassRule;
 use crate::embedding::UnitRows;
@@ -9,6 +9,7 @@ use crate::frame::{Detection, Frame};
 use crate::geometry::{Rect, State};
 use crate::image::ImageView;
 
+use super::appearance_model::Looks;
 use super::removal::SMALLEST;
 
 /// Score above which a detection counts as somebody else beside another one.
@@ -28,7 +29,7 @@ pub struct Observed {
     look: Look,
 }
 
-/// Whether a detection's descriptor is known.
+/// Whether a detection's looks are known.
 #[derive(Clone, Copy, Debug)]
 enum Look {
     NotYet,
@@ -43,7 +44,7 @@ pub struct Observations {
     boxes: Vec<Rect>,
     sweep: OverlapSweep,
     // By index; valid where the look is `Seen`.
-    descriptors: Vec<Descriptor>,
+    looks: Vec<Looks>,
     embeddings: UnitRows,
 }
 
@@ -100,22 +101,19 @@ impl Observations {
     }
 
     /// What detection `index` looks like, worked out when first asked for.
-    pub fn descriptor(
-        &mut self,
-        index: usize,
-        image: Option<&ImageView<'_>>,
-        hog: &mut HogWorkspace,
-    ) -> Option<&Descriptor> {
-        if self.descriptors.len() <= index {
-            self.descriptors.resize(self.list.len(), [0.0; _]);
+    pub fn looks(&mut self, index: usize, image: Option<&ImageView<'_>>, hog: &mut HogWorkspace) -> Option<&Looks> {
+        if self.looks.len() <= index {
+            self.looks.resize(self.list.len(), Looks::NONE);
         }
-        let (observed, descriptor) = (&mut self.list[index], &mut self.descriptors[index]);
+        let (observed, looks) = (&mut self.list[index], &mut self.looks[index]);
         if let Look::NotYet = observed.look {
             let rect = &observed.detection.rect;
-            let seen = image.is_some_and(|i| hog.prepare(i, rect, 1.0)) && hog.describe(rect, descriptor);
+            let seen = image.is_some_and(|i| hog.prepare(i, rect, 1.0))
+                && hog.describe(rect, &mut looks.shape)
+                && hog.tones(rect, &mut looks.tones);
             observed.look = if seen { Look::Seen } else { Look::Unusable };
         }
-        matches!(observed.look, Look::Seen).then_some(&*descriptor)
+        matches!(observed.look, Look::Seen).then_some(&*looks)
     }
 }
 

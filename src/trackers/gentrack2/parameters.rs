@@ -132,10 +132,25 @@ parameters! {
         hog_offset: f64 = 0.3, [0.0, 0.95], "", "";
         /// Share of the old template when a strong track learns its new appearance.
         template_momentum: f64 = 0.9, [0.0, 1.0], "", "";
-        /// Weight of HOG dissimilarity in the association cost; 0 keeps appearance to the swarm, the paper's text.
+        /// Weight of the unlikeness of looks in the association cost; 0 keeps appearance to the swarm, the paper's
+        /// text.
         hog_cost: f64 = 1.0, [0.0, 2.0], "", "";
-        /// Added to `cost_gate` where HOG takes part in the cost.
-        hog_gate: f64 = 0.6, [0.0, 2.0], "", "";
+        /// Added to `cost_gate` where looks take part in the cost.
+        hog_gate: f64 = 0.55, [0.0, 2.0], "", "";
+        /// Share of brightness, stripe by stripe from head to foot, in the unlikeness of looks; HOG has the rest. It
+        /// tells people apart better than HOG does. 0 is the paper's text. The swarm looks at HOG alone.
+        tone_share: f64 = 0.6, [0.0, 1.0], "", "";
+        /// Bhattacharyya coefficient of brightness histograms that counts as no similarity.
+        tone_offset: f64 = 0.65, [0.0, 0.95], "", "";
+        /// Before a detection starts a track, targets lost for up to this time whose looks are known are asked whether
+        /// it is one of them; such targets are kept so long, wherever they went. 0 turns it off.
+        recognition_time: f64 = 120.0, [0.0, 1e6], "ticks", "";
+        /// Largest unlikeness at which a lost target is recognised, ...
+        recognition_unlikeness: f64 = 0.34, [0.0, 1.0], "", "";
+        /// ... by how much everybody else who could be there must be less alike, ...
+        recognition_margin: f64 = 0.05, [0.0, 1.0], "", "";
+        /// ... and how fast it may have gone.
+        recognition_speed: f64 = 0.03, [0.0, 10.0], "box diagonals/tick", "";
         /// Weight of embedding dissimilarity, `(1 - cosine)/2`, in the association cost.
         embedding_cost: f64 = 0.5, [0.0, 2.0], "", "";
         /// Added to `cost_gate` where embeddings take part in the cost.
@@ -316,6 +331,8 @@ impl GenTrack2Parameters {
                 template_momentum: 0.0,
                 hog_cost: 0.0,
                 hog_gate: 0.0,
+                tone_share: 0.0,
+                recognition_time: 0.0,
                 embedding_cost: 0.0,
                 embedding_gate: 0.0,
                 lambda_p: 0.8,

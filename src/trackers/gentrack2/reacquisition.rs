@@ -5,9 +5,10 @@
 //! be is their speed and the time they were gone.
 
 use crate::classes::ClassRule;
-use crate::geometry::State;
+use crate::geometry::{Rect, State};
 
-use super::data_association::{Sight, looks_alike};
+use super::appearance_model::ROWS;
+use super::data_association::{Sight, embedding_part};
 use super::observations::{Observations, Observed};
 use super::parameters::GenTrack2Parameters;
 use super::target::Target;
@@ -20,6 +21,10 @@ const KNOWN_HITS: u32 = 10;
 const LARGEST_GROWTH: f64 = 1.25;
 /// Where it was last seen, a target's centre is known to this share of its diagonal.
 const SLACK: f64 = 0.25;
+/// Unlikeness from which looks speak against a target.
+const STRANGE: f64 = 0.5;
+/// Share of a row of a box from which it counts as hidden by a box in front.
+const COVERED_ROW: f64 = 0.5;
 
 /// The hidden target that detection `index` is: of those that can have got there and look like it, the nearest.
 pub fn find(
@@ -34,6 +39,7 @@ pub fn find(
         return None;
     }
     let Observed { state: detected, detection, .. } = *observations.get(index);
+    let visible = visible_rows(targets, &detection.rect);
     let mut best = None;
     for (slot, target) in targets.iter().enumerate() {
         if !rule.allows(target.life.last.class_id, detection.class_id) {
@@ -41,7 +47,7 @@ pub fn find(
         }
         let Some(detour) = detour(p, target, &detected) else { continue };
         let nearer = best.is_none_or(|(_, least)| detour < least);
-        if nearer && looks_alike(p, target, observations, index, sight) {
+        if nearer && looks_alike(p, target, observations, index, &visible, sight) {
             best = Some((slot, detour));
         }
     }
@@ -60,6 +66,35 @@ fn detour(p: &GenTrack2Parameters, target: &Target, detected: &State) -> Option<
     let reach = p.reacquire_reach * target.velocity.centre_norm() * target.missed + SLACK * last.diagonal();
     let gone = (*detected - *last).centre_norm();
     (gone <= reach).then_some(gone / reach)
+}
+
+/// Whether nothing that is seen of a detection speaks against a target.
+fn looks_alike(
+    p: &GenTrack2Parameters,
+    target: &Target,
+    observations: &mut Observations,
+    index: usize,
+    visible: &[bool; ROWS],
+    sight: &mut Sight<'_, '_>,
+) -> bool {
+    if embedding_part(p, target, observations, index) > 0.0 {
+        return false;
+    }
+    let seen = observations.looks(index, sight.image, sight.hog).filter(|_| p.hog_cost > 0.0 && target.has_looks);
+    // What comes out from behind another shows a part of itself, and for the rest the other.
+    seen.is_none_or(|seen| target.looks.of_rows(visible).unlikeness(p, &seen.of_rows(visible)) <= STRANGE)
+}
+
+/// Which rows of a detection's box no strong target in front of it hides.
+fn visible_rows(targets: &[Target], detected: &Rect) -> [bool; ROWS] {
+    let height = detected.height / ROWS as f64;
+    let in_front = || targets.iter().filter(|t| t.is_strong()).map(|t| Rect::from(t.state));
+    std::array::from_fn(|row| {
+        let part = Rect { top: detected.top + row as f64 * height, height, ..*detected };
+        let hides =
+            |front: Rect| front.bottom() > detected.bottom() && front.intersection(&part) >= COVERED_ROW * part.area();
+        !in_front().any(hides)
+    })
 }
 
 #[cfg(test)]
@@ -117,6 +152,27 @@ mod tests {
         // Heights of 40 and 51: more than a quarter.
         let taller = State { h: 51.0, ..seen(100.0, 100.0) };
         assert_eq!(detour(&p, &hidden(), &taller), None);
+    }
+
+    #[test]
+    fn rows_behind_somebody_in_front_are_not_seen() {
+        // The detection is 80..120, in rows of 5 px; the one in front covers it from 101 on: four fifths of the fifth
+        // row and all below.
+        let detected = Rect::from(seen(100.0, 100.0));
+        let front = |top: f64, matched: Match| {
+            let rect = Rect::new(80.0, top, 40.0, 121.0 - top);
+            let mut target = Target::born(&Detection { rect, score: 0.9, ..Default::default() }, 0, 1);
+            target.matched = matched;
+            target
+        };
+        let strong = Match::Detection(3);
+        let upper: [bool; ROWS] = std::array::from_fn(|row| row < 4);
+        assert_eq!(visible_rows(&[front(101.0, strong)], &detected), upper);
+        // One that is not there, or stands further back, hides nothing.
+        assert_eq!(visible_rows(&[front(101.0, Match::None)], &detected), [true; ROWS]);
+        let mut behind = front(70.0, strong);
+        behind.state = State { v: 90.0, h: 40.0, ..behind.state };
+        assert_eq!(visible_rows(&[behind], &detected), [true; ROWS]);
     }
 
     #[test]

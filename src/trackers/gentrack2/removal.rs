@@ -8,13 +8,18 @@ const LARGEST: f64 = 1e13;
 /// Smallest width and height of a state in pixels.
 pub const SMALLEST: f64 = 1e-6;
 
-/// Whether a target's life ends in this frame.
-pub fn is_expired(p: &GenTrack2Parameters, target: &Target) -> bool {
-    let unconfirmed_miss = !target.confirmed && target.missed > 0.0;
+/// Whether a target is given up in this frame: it ends, unless it is still remembered.
+pub fn is_given_up(p: &GenTrack2Parameters, target: &Target) -> bool {
     // Eq. 15.
     let aged = target.age >= p.max_age;
     let missed = target.blamed > p.max_missed;
-    unconfirmed_miss || aged || missed || !is_sane(target)
+    aged || missed || is_void(target)
+}
+
+/// Whether a target is nothing to be remembered.
+pub fn is_void(target: &Target) -> bool {
+    let unconfirmed_miss = !target.confirmed && target.missed > 0.0;
+    unconfirmed_miss || !is_sane(target)
 }
 
 /// Whether the centre lies outside the frame.
@@ -48,21 +53,21 @@ mod tests {
         let p = GenTrack2Parameters { max_age: 60.0, ..Default::default() };
         let mut target = weak(5.0);
         target.age = 59.9;
-        assert!(!is_expired(&p, &target));
+        assert!(!is_given_up(&p, &target));
         target.age = 60.0;
-        assert!(is_expired(&p, &target));
+        assert!(is_given_up(&p, &target));
     }
 
     #[test]
     fn misses_end_tracks_at_the_limit_and_tentative_ones_at_once() {
         let p = GenTrack2Parameters { max_missed: 30.0, ..Default::default() };
-        assert!(!is_expired(&p, &weak(30.0)));
-        assert!(is_expired(&p, &weak(31.0)));
+        assert!(!is_given_up(&p, &weak(30.0)));
+        assert!(is_given_up(&p, &weak(31.0)));
         let mut young = weak(1.0);
         young.confirmed = false;
-        assert!(is_expired(&p, &young));
+        assert!(is_given_up(&p, &young));
         young.missed = 0.0;
-        assert!(!is_expired(&p, &young));
+        assert!(!is_given_up(&p, &young));
     }
 
     #[test]
@@ -71,7 +76,7 @@ mod tests {
         for (u, w) in [(f64::NAN, 10.0), (1e14, 10.0), (0.0, 0.0), (0.0, 1e-7), (0.0, f64::INFINITY)] {
             let mut target = weak(1.0);
             (target.state.u, target.state.w) = (u, w);
-            assert!(is_expired(&p, &target), "{u} {w}");
+            assert!(is_given_up(&p, &target), "{u} {w}");
         }
     }
 }

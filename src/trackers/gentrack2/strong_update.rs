@@ -17,6 +17,7 @@ pub fn update(p: &GenTrack2Parameters, target: &mut Target, row: u32, detection:
     target.blamed = 0.0;
     target.covered = 0.0;
     target.missed_frames = 0;
+    target.dormant = false;
     weigh_evidence(p, target);
 }
 

@@ -65,7 +65,7 @@ impl Swarm {
         self.descriptors.resize(count, None);
 
         let bound = velocity_bound(p, &target.state);
-        let template = if looking && target.has_template { Some(*target.template) } else { None };
+        let template = if looking && target.has_looks { Some(target.looks.shape) } else { None };
         let reference = reference(p, target, &bound, template);
         let mut best = (0, Rating { total: f64::NEG_INFINITY, history: 0.0 });
         for iteration in 0..=p.pso_iterations {

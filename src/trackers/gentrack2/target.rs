@@ -2,7 +2,6 @@
 
 use std::collections::VecDeque;
 
-use crate::appearance::Descriptor;
 use crate::embedding::MeanEmbedding;
 use crate::frame::{CameraMotion, Detection};
 use crate::geometry::State;
@@ -10,6 +9,7 @@ use crate::random::Random;
 
 use crate::trackers::life::Life;
 
+use super::appearance_model::Looks;
 use super::residual::Residual;
 
 /// A particle: a hypothesis of the target's state, `{X^s, V^s}`.
@@ -83,6 +83,8 @@ pub struct Target {
     pub covered: f64,
     /// Frames without a match on which the detector ran.
     pub missed_frames: u32,
+    /// Whether it was given up, and is kept for its looks alone.
+    pub dormant: bool,
     /// Whether the track is trusted.
     pub confirmed: bool,
     /// Whether the track was reported in the last step.
@@ -105,11 +107,10 @@ pub struct Target {
     pub global_fitness: f64,
     /// Whether the swarm of this frame could compare looks.
     pub looked_at: bool,
-    /// HOG vector learnt from strong updates; valid if `has_template`.
-    #[cfg_attr(feature = "snapshot", serde(with = "crate::snapshot::numbers"))]
-    pub template: Box<Descriptor>,
-    /// Whether there is a template.
-    pub has_template: bool,
+    /// Looks learnt from strong updates; valid if `has_looks`.
+    pub looks: Box<Looks>,
+    /// Whether its looks are known.
+    pub has_looks: bool,
     /// Embedding learnt from strong updates.
     pub embedding: MeanEmbedding,
     /// Its own random numbers: they do not depend on the other targets.
@@ -131,6 +132,7 @@ impl Target {
             blamed: 0.0,
             covered: 0.0,
             missed_frames: 0,
+            dormant: false,
             confirmed: false,
             reported: false,
             matched: Match::None,
@@ -142,8 +144,8 @@ impl Target {
             global_best: State::default(),
             global_fitness: 1.0,
             looked_at: false,
-            template: Box::new([0.0; _]),
-            has_template: false,
+            looks: Box::new(Looks::NONE),
+            has_looks: false,
             embedding: MeanEmbedding::default(),
             random: Random::new(0, 0),
         }
@@ -172,6 +174,7 @@ impl Target {
         self.blamed = 0.0;
         self.covered = 0.0;
         self.missed_frames = 0;
+        self.dormant = false;
         self.confirmed = false;
         self.reported = false;
         self.matched = Match::Birth(index);
@@ -184,7 +187,7 @@ impl Target {
         self.global_best = state;
         self.global_fitness = 1.0;
         self.looked_at = false;
-        self.has_template = false;
+        self.has_looks = false;
         self.embedding.clear();
     }
 
