@@ -1,31 +1,90 @@
-//! Which boxes of two lists overlap, found by a sweep along x instead of by trying all pairs.
+//! Which boxes of two lists overlap, found by sweeps along x, one in each of many horizontal strips, instead of by trying
+//! all pairs. In a strip only a few boxes lie above each other, however many there are in all.
 //!
 //! With more than about a thousand boxes in both lists a row has a limited number of partners, the nearest ones: all pairs
 //! of tens of thousands of boxes on one spot do not fit into memory.
 
+use crate::assignment::refill;
 use crate::geometry::Rect;
 
 /// Pairs for which there is always room; rows share it.
 const ROOM: usize = 1 << 20;
 /// Partners that each row may have in any case.
 const LEAST_PER_ROW: usize = 32;
+/// Fewer boxes than this are one strip.
+const FEW: usize = 48;
+/// Height of a strip in mean heights of a box: lower strips have shorter lists but share more boxes.
+const STRIP_HEIGHT: f64 = 2.0;
 
 /// The sweep, with buffers that are reused from call to call.
 #[derive(Clone, Debug, Default)]
 pub struct OverlapSweep {
-    order: Vec<Entry>,
-    active: [Vec<u32>; 2],
+    /// The boxes of all strips, strip by strip, and where each strip begins.
+    entries: Vec<Entry>,
+    first: Vec<u32>,
+    active: [Vec<Active>; 2],
     pairs: Vec<(u32, u32)>,
     // For each row the rank from which partners are out: that of its last one, once it had too many.
     reach: Vec<(f64, u32)>,
     ranked: Vec<(f64, u32)>,
+    /// Where each row's partners begin when the pairs are put into order, and the partners.
+    slots: Vec<u32>,
+    partners: Vec<u32>,
 }
 
-#[derive(Clone, Copy, Debug)]
+/// A box in a strip.
+#[derive(Clone, Copy, Debug, Default)]
 struct Entry {
-    left: f64,
-    list: u8,
+    /// The left edge as an integer of the same order.
+    left: i64,
     index: u32,
+    list: u32,
+}
+
+/// A box that the sweep is over.
+#[derive(Clone, Copy, Debug)]
+struct Active {
+    right: f64,
+    top: f64,
+    bottom: f64,
+    index: u32,
+    /// The strip in which it begins.
+    begins: u32,
+}
+
+/// Horizontal strips of equal height; the first and the last go on for ever.
+#[derive(Clone, Copy, Debug)]
+struct Strips {
+    top: f64,
+    per_pixel: f64,
+    count: usize,
+}
+
+impl Strips {
+    /// Strips for these boxes: as many boxes as there are, each in about one and a half of them.
+    fn new(lists: &[&[Rect]; 2]) -> Self {
+        let (mut top, mut bottom, mut heights, mut count) = (f64::INFINITY, f64::NEG_INFINITY, 0.0, 0);
+        for rect in lists.iter().copied().flatten().filter(|r| r.area() > 0.0) {
+            top = top.min(rect.top);
+            bottom = bottom.max(rect.top);
+            heights += rect.height;
+            count += 1;
+        }
+        let per_pixel = count as f64 / (STRIP_HEIGHT * heights);
+        let strips = (bottom - top) * per_pixel;
+        if count < FEW || !(per_pixel.is_finite() && strips >= 1.0) {
+            return Self { top: 0.0, per_pixel: 0.0, count: 1 };
+        }
+        // Boxes far away must not make more strips than there are boxes.
+        let most = count as f64;
+        let per_pixel = if strips > most { per_pixel * (most / strips) } else { per_pixel };
+        Self { top, per_pixel, count: strips.min(most) as usize + 1 }
+    }
+
+    /// The strip of a height in the image. The cast makes 0 of what is above all boxes, and of NaN.
+    fn of(&self, y: f64) -> usize {
+        (((y - self.top) * self.per_pixel) as usize).min(self.count - 1)
+    }
 }
 
 impl OverlapSweep {
@@ -37,50 +96,93 @@ impl OverlapSweep {
     /// The same with at most so many partners per row.
     fn limited_pairs(&mut self, rows: &[Rect], columns: &[Rect], most: usize) -> &[(u32, u32)] {
         self.pairs.clear();
-        self.reach.clear();
-        self.reach.resize(rows.len(), (f64::INFINITY, 0));
-        self.fill_order(rows, columns);
-        let most_pairs = 2 * most * rows.len();
+        refill(&mut self.reach, rows.len(), (f64::INFINITY, 0));
         let lists = [rows, columns];
-        for at in 0..self.order.len() {
-            let entry = self.order[at];
-            let (own, other) = (entry.list as usize, 1 - entry.list as usize);
-            let rect = &lists[own][entry.index as usize];
-            let (first, mut kept) = (self.pairs.len(), 0);
-            for k in 0..self.active[other].len() {
-                let candidate = self.active[other][k];
-                let box_ = &lists[other][candidate as usize];
-                if box_.right() <= rect.left {
-                    continue;
-                }
-                self.active[other][kept] = candidate;
-                kept += 1;
-                if box_.top < rect.bottom() && rect.top < box_.bottom() {
-                    let pair = if own == 0 { (entry.index, candidate) } else { (candidate, entry.index) };
-                    if is_before((distance(rows, columns, pair), pair.1), self.reach[pair.0 as usize]) {
-                        self.pairs.push(pair);
-                    }
-                }
-            }
-            self.active[other].truncate(kept);
-            self.active[own].push(entry.index);
-            if own == 0 && self.pairs.len() - first > most {
-                // At once, as else the pairs of a crowd would be sorted over and over.
-                self.rank(first..self.pairs.len(), rows, columns, most);
-                self.pairs.truncate(first);
-                self.pairs.extend(self.ranked.iter().map(|ranked| (entry.index, ranked.1)));
-            }
-            if self.pairs.len() > most_pairs {
-                self.keep_nearest(rows, columns, most);
-            }
+        let strips = Strips::new(&lists);
+        self.fill_strips(&lists, &strips);
+        for strip in 0..strips.count {
+            self.sweep(&lists, &strips, strip, most);
         }
         self.keep_nearest(rows, columns, most);
         &self.pairs
     }
 
+    /// Puts every box into the strips that it meets.
+    fn fill_strips(&mut self, lists: &[&[Rect]; 2], strips: &Strips) {
+        let boxes = || {
+            (0..).zip(lists).flat_map(|(list, rects)| {
+                let meets = |r: &Rect| (strips.of(r.top), strips.of(r.bottom()));
+                let present = (0u32..).zip(*rects).filter(|(_, r)| r.area() > 0.0);
+                present.map(move |(index, r)| (Entry { left: ordered(r.left), index, list }, meets(r)))
+            })
+        };
+        refill(&mut self.first, strips.count + 1, 0);
+        for (_, (from, to)) in boxes() {
+            self.first[from..=to].iter_mut().for_each(|n| *n += 1);
+        }
+        let mut total = 0;
+        for n in &mut self.first {
+            total += std::mem::replace(n, total);
+        }
+        refill(&mut self.entries, total as usize, Entry::default());
+        for (entry, (from, to)) in boxes() {
+            for next in &mut self.first[from..=to] {
+                self.entries[*next as usize] = entry;
+                *next += 1;
+            }
+        }
+        // Now each strip's number says where it ends, which is where the next one begins.
+        self.first.rotate_right(1);
+        self.first[0] = 0;
+        for strip in self.first.windows(2) {
+            self.entries[strip[0] as usize..strip[1] as usize].sort_unstable_by_key(|e| e.left);
+        }
+    }
+
+    /// Finds the pairs of a strip. Boxes that share several strips are a pair in the first of them.
+    fn sweep(&mut self, lists: &[&[Rect]; 2], strips: &Strips, strip: usize, most: usize) {
+        let [rows, columns] = *lists;
+        let most_pairs = 2 * most * rows.len();
+        self.active.iter_mut().for_each(Vec::clear);
+        for at in self.first[strip] as usize..self.first[strip + 1] as usize {
+            let Entry { index, list, .. } = self.entries[at];
+            let own = list as usize;
+            let rect = &lists[own][index as usize];
+            let (left, top, bottom, begins) = (rect.left, rect.top, rect.bottom(), strips.of(rect.top) as u32);
+            let (before, mut kept) = (self.pairs.len(), 0);
+            let others = &mut self.active[1 - own];
+            for k in 0..others.len() {
+                let other = others[k];
+                if other.right <= left {
+                    continue;
+                }
+                others[kept] = other;
+                kept += 1;
+                if other.top < bottom && top < other.bottom && other.begins.max(begins) == strip as u32 {
+                    let pair = if own == 0 { (index, other.index) } else { (other.index, index) };
+                    let reach = self.reach[pair.0 as usize];
+                    if reach.0 == f64::INFINITY || is_before((distance(rows, columns, pair), pair.1), reach) {
+                        self.pairs.push(pair);
+                    }
+                }
+            }
+            others.truncate(kept);
+            self.active[own].push(Active { right: rect.right(), top, bottom, index, begins });
+            if own == 0 && self.pairs.len() - before > most {
+                // At once, as else the pairs of a crowd would be sorted over and over.
+                self.rank(before..self.pairs.len(), rows, columns, most);
+                self.pairs.truncate(before);
+                self.pairs.extend(self.ranked.iter().map(|ranked| (index, ranked.1)));
+            }
+            if self.pairs.len() > most_pairs {
+                self.keep_nearest(rows, columns, most);
+            }
+        }
+    }
+
     /// Sorts the pairs and leaves each row its nearest partners, the first of equally near ones.
     fn keep_nearest(&mut self, rows: &[Rect], columns: &[Rect], most: usize) {
-        self.pairs.sort_unstable();
+        self.sort_pairs(rows.len());
         let (mut from, mut kept) = (0, 0);
         while from < self.pairs.len() {
             let row = self.pairs[from].0;
@@ -100,6 +202,32 @@ impl OverlapSweep {
         self.pairs.truncate(kept);
     }
 
+    /// Sorts the pairs by row, then column: dealt out to the rows, then each row's few by themselves.
+    fn sort_pairs(&mut self, rows: usize) {
+        refill(&mut self.slots, rows + 1, 0);
+        for pair in &self.pairs {
+            self.slots[pair.0 as usize + 1] += 1;
+        }
+        for row in 0..rows {
+            self.slots[row + 1] += self.slots[row];
+        }
+        refill(&mut self.partners, self.pairs.len(), 0);
+        for &(row, column) in &self.pairs {
+            let slot = &mut self.slots[row as usize];
+            self.partners[*slot as usize] = column;
+            *slot += 1;
+        }
+        // Now each row's slot is where it ends.
+        let mut from = 0;
+        for (row, &to) in self.slots[..rows].iter().enumerate() {
+            let (from, to) = (std::mem::replace(&mut from, to as usize), to as usize);
+            self.partners[from..to].sort_unstable();
+            for (pair, column) in self.pairs[from..to].iter_mut().zip(&self.partners[from..to]) {
+                *pair = (row as u32, *column);
+            }
+        }
+    }
+
     /// Puts the nearest partners of a row with too many, whose pairs are `range`, into `ranked`, by index.
     fn rank(&mut self, range: std::ops::Range<usize>, rows: &[Rect], columns: &[Rect], most: usize) {
         let of_row = &self.pairs[range];
@@ -112,17 +240,13 @@ impl OverlapSweep {
         self.ranked.truncate(most);
         self.ranked.sort_unstable_by_key(|ranked| ranked.1);
     }
+}
 
-    fn fill_order(&mut self, rows: &[Rect], columns: &[Rect]) {
-        self.order.clear();
-        self.active.iter_mut().for_each(Vec::clear);
-        for (list, rects) in [rows, columns].into_iter().enumerate() {
-            let entries = rects.iter().enumerate().filter(|(_, r)| r.area() > 0.0);
-            self.order.extend(entries.map(|(index, r)| Entry { left: r.left, list: list as u8, index: index as u32 }));
-        }
-        self.order
-            .sort_unstable_by(|a, b| a.left.total_cmp(&b.left).then(a.list.cmp(&b.list)).then(a.index.cmp(&b.index)));
-    }
+/// A number as an integer of the same order, which is quicker to sort by. -0 comes before 0, which does no harm: a box
+/// that ends at 0 and began before is not over one that begins there.
+fn ordered(x: f64) -> i64 {
+    let bits = x.to_bits() as i64;
+    bits ^ ((bits >> 63) as u64 >> 1) as i64
 }
 
 /// Partners rank by their distance, equally far ones by their index.
@@ -150,9 +274,13 @@ mod tests {
     proptest! {
         #[test]
         fn finds_exactly_the_pairs_with_a_positive_iou(
-            rows in proptest::collection::vec(rect(), 0..30),
-            columns in proptest::collection::vec(rect(), 0..30),
+            rows in proptest::collection::vec(rect(), 0..60),
+            columns in proptest::collection::vec(rect(), 0..60),
+            giant in proptest::option::of(-1e12f64..1e12),
         ) {
+            // One far away that reaches back over the others.
+            let giant = giant.map(|top| Rect::new(0.0, top, 20.0, 2.0 * top.abs()));
+            let rows: Vec<Rect> = rows.into_iter().chain(giant).collect();
             let mut expected = Vec::new();
             for (i, a) in rows.iter().enumerate() {
                 for (j, b) in columns.iter().enumerate() {

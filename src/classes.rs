@@ -26,6 +26,11 @@ impl ClassRule {
         Self { same_only: policy == ClassPolicy::SameClass }
     }
 
+    /// Whether everything may be compared with everything.
+    pub fn compares_all(self) -> bool {
+        !self.same_only
+    }
+
     /// Whether they may be taken for the same object.
     pub fn allows(self, a: i32, b: i32) -> bool {
         !self.same_only || a == b

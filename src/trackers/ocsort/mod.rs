@@ -17,7 +17,7 @@ pub use parameters::*;
 
 use super::TrackingAlgorithm;
 use super::life::SMALLEST;
-use super::sort_family::{FullAssociation, list_and_remove};
+use super::sort_family::{Extra, FullAssociation, list_and_remove};
 use crate::assignment::UNMATCHED;
 use crate::frame::{Detection, Frame};
 use crate::geometry::Rect;
@@ -120,7 +120,10 @@ impl OcSort {
                 let consistency = view(t).heading.as_ref().map_or(0.0, |h| h.consistency(&detection(d).rect));
                 p.inertia * detection(d).score * consistency
             };
-            association.best_sum(bonus, |d| 0.5 * p.inertia * detection(d).score, allowed);
+            let bound = |d: u32| 0.5 * p.inertia * detection(d).score;
+            // Who went nowhere yet is as good for one as for another.
+            let is_plain = |t: u32| view(t).heading.is_none() && context.classes.compares_all();
+            association.best_sum(&Extra { bonus, bound, is_plain, allowed });
         }
         self.take_partners(detections, true);
     }

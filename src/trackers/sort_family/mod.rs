@@ -1,10 +1,11 @@
 //! What SORT and OC-SORT have in common: runs of matches that decide what is reported, and an association over all
 //! pairs from which those that overlap too little are dropped afterwards.
 
+mod certain_pairs;
 mod full_association;
 mod run;
 
-pub use full_association::{FullAssociation, too_many};
+pub use full_association::{Extra, FullAssociation, too_many};
 pub use run::Run;
 
 use crate::track::{Output, Track};
