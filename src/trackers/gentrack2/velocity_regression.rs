@@ -42,10 +42,11 @@ impl Reach {
     }
 }
 
-/// Buffers, shared by all targets: the slopes of each component.
+/// Buffers, shared by all targets: the slopes of each component, and keys to select by.
 #[derive(Clone, Debug, Default)]
 pub struct VelocityRegression {
-    slopes: [Vec<OrderKey>; 4],
+    slopes: [Vec<f64>; 4],
+    keys: Vec<OrderKey>,
 }
 
 impl VelocityRegression {
@@ -59,25 +60,31 @@ impl VelocityRegression {
         let (width, height) = (p.size_slope_limit * target.state.w, p.size_slope_limit * target.state.h);
         let limits = State::new(centre, centre, width, height);
         self.collect_slopes(target.history.make_contiguous(), p.regression_lags, reach.window, &limits);
-        let [u, v, w, h] = self.slopes.each_mut().map(|slopes| median(slopes));
+        // From frame to frame few slopes come and go, so the velocity so far is near the middle.
+        let before = [target.velocity.u, target.velocity.v, target.velocity.w, target.velocity.h];
+        let [u, v, w, h] = std::array::from_fn(|i| median_near(&self.slopes[i], before[i], &mut self.keys));
         target.velocity = State::new(u, v, w, h) * trust(p, &target.history);
     }
 
     fn collect_slopes(&mut self, history: &[Observation], lags: RegressionLags, window: usize, limits: &State) {
-        self.slopes.iter_mut().for_each(Vec::clear);
-        for lag in Lags::new(lags, window, history.len()).iter() {
-            let later = history.get(lag..).unwrap_or_default();
+        let lags = Lags::new(lags, window, history.len());
+        let pairs = || lags.iter().map(|lag| history.get(lag..).unwrap_or_default());
+        let most = pairs().map(<[_]>::len).sum();
+        // Every slope is written, but the next one over it if it does not count: without a branch.
+        self.slopes.iter_mut().for_each(|list| list.resize(most, 0.0));
+        let limits = [limits.u, limits.v, limits.w, limits.h];
+        let mut counts = [0; 4];
+        for later in pairs() {
             for (from, to) in history.iter().zip(later) {
                 let (rise, run) = (to.state - from.state, to.time - from.time);
                 let slopes = [rise.u / run, rise.v / run, rise.w / run, rise.h / run];
-                let limits = [limits.u, limits.v, limits.w, limits.h];
-                for ((list, slope), limit) in self.slopes.iter_mut().zip(slopes).zip(limits) {
-                    if slope.abs() <= limit {
-                        list.push(slope.into());
-                    }
+                for i in 0..4 {
+                    self.slopes[i][counts[i]] = slopes[i];
+                    counts[i] += usize::from(slopes[i].abs() <= limits[i]);
                 }
             }
         }
+        self.slopes.iter_mut().zip(counts).for_each(|(list, count)| list.truncate(count));
     }
 }
 
@@ -124,6 +131,70 @@ impl From<OrderKey> for f64 {
     }
 }
 
+/// Steps from a guess to the median after which selection is quicker.
+const MOST_STEPS: usize = 4;
+
+/// The median as by [`median`], sought from a guess: the values on either side of it are counted, and if the middle is
+/// not there, it goes on to the next value.
+fn median_near(values: &[f64], guess: f64, keys: &mut Vec<OrderKey>) -> f64 {
+    let (upper, even) = (values.len() / 2, values.len().is_multiple_of(2));
+    // A guess of -0 would pass for a slope of 0.
+    let mut at = guess + 0.0;
+    for _ in 0..MOST_STEPS {
+        let sides = Sides::of(values, at);
+        let not_more = values.len() - sides.more;
+        if upper < sides.less {
+            at = sides.below;
+        } else if upper >= not_more {
+            at = sides.above;
+        } else if even && upper == sides.less {
+            return 0.5 * (sides.below + at);
+        } else {
+            return at;
+        }
+    }
+    keys.clear();
+    keys.extend(values.iter().map(|x| OrderKey::from(*x)));
+    median(keys)
+}
+
+/// How many values are less and more than one, and the nearest of these.
+struct Sides {
+    less: usize,
+    more: usize,
+    below: f64,
+    above: f64,
+}
+
+impl Sides {
+    /// In lanes, so that the loop vectorises.
+    fn of(values: &[f64], at: f64) -> Self {
+        const LANES: usize = 4;
+        let (mut less, mut more) = ([0u64; LANES], [0u64; LANES]);
+        let (mut below, mut above) = ([f64::NEG_INFINITY; LANES], [f64::INFINITY; LANES]);
+        let (chunks, rest) = values.as_chunks::<LANES>();
+        let mut take = |lane: usize, x: f64| {
+            less[lane] += u64::from(x < at);
+            more[lane] += u64::from(x > at);
+            let (low, high) = (if x < at { x } else { f64::NEG_INFINITY }, if x > at { x } else { f64::INFINITY });
+            below[lane] = if low > below[lane] { low } else { below[lane] };
+            above[lane] = if high < above[lane] { high } else { above[lane] };
+        };
+        for chunk in chunks {
+            for lane in 0..LANES {
+                take(lane, chunk[lane]);
+            }
+        }
+        rest.iter().for_each(|x| take(0, *x));
+        Self {
+            less: less.iter().sum::<u64>() as usize,
+            more: more.iter().sum::<u64>() as usize,
+            below: below.into_iter().fold(f64::NEG_INFINITY, f64::max),
+            above: above.into_iter().fold(f64::INFINITY, f64::min),
+        }
+    }
+}
+
 /// The median, the mean of the middle two for an even number, 0 for none. Reorders the values.
 pub fn median(values: &mut [OrderKey]) -> f64 {
     if values.is_empty() {
@@ -143,6 +214,7 @@ pub fn median(values: &mut [OrderKey]) -> f64 {
 mod tests {
     use super::*;
     use crate::frame::Detection;
+    use proptest::prelude::*;
 
     fn regress(p: &GenTrack2Parameters, track: &[(f64, f64)]) -> State {
         let mut target = Target::born(&Detection::new(0.0, 0.0, 30.0, 40.0, 0.9), 0, 1);
@@ -181,6 +253,19 @@ mod tests {
         for pair in sorted.windows(2) {
             assert!(OrderKey::from(pair[0]) < OrderKey::from(pair[1]));
             assert_eq!(f64::from(OrderKey::from(pair[0])), pair[0]);
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn the_median_is_the_same_from_any_guess(
+            tenths in proptest::collection::vec(-20i32..20, 0..70),
+            guess in -30i32..30,
+        ) {
+            let values: Vec<f64> = tenths.iter().map(|x| *x as f64 / 10.0).collect();
+            let mut keys: Vec<OrderKey> = values.iter().map(|x| OrderKey::from(*x)).collect();
+            let found = median_near(&values, guess as f64 / 10.0, &mut Vec::new());
+            prop_assert_eq!(found.to_bits(), median(&mut keys).to_bits());
         }
     }
 
