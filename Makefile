@@ -10,7 +10,7 @@ export GENTRACK2_SHARED := $(abspath ../shared)
 endif
 endif
 
-.PHONY: help build demo test accuracy lint fmt-check clean
+.PHONY: help build demo test accuracy bench bench-instructions lint fmt-check clean
 
 help:
 	@echo "make build      the library and the examples, in $(BUILD)/"
@@ -18,10 +18,14 @@ help:
 	@echo "make test       all tests: Rust, C and C++"
 	@echo "make accuracy   a table of all trackers on all set-ups of eval/README.md, if GENTRACK2_SHARED names the data;"
 	@echo "                ACCURACY='--entries gentrack2 --setups H,P' and the like are options of eval/evaluate.py"
+	@echo "make bench      speed and memory beside other crates' trackers and OpenCV, in about ten minutes: out/bench.md;"
+	@echo "                MOT17 is among it if GENTRACK2_SHARED names the data"
+	@echo "make bench-instructions"
+	@echo "                instructions per step against benches/instructions/baseline.txt; UPDATE=1 writes that file"
 	@echo "make lint       formatting and clippy"
 	@echo "make clean      remove $(BUILD)/, out/ and target/"
 	@echo
-	@echo "build, demo, test and accuracy install the Debian packages they need and do not find."
+	@echo "build, demo, test, accuracy and the benchmarks install the Debian packages they need and do not find."
 
 build:
 	@tools/install-needs.sh build
@@ -44,12 +48,23 @@ accuracy:
 	@$(MAKE) --no-print-directory build
 	@python3 eval/evaluate.py $(ACCURACY)
 
+bench:
+	@tools/install-needs.sh bench
+	@$(MAKE) --no-print-directory build
+	@tools/bench.sh $(BUILD)
+
+bench-instructions:
+	@tools/install-needs.sh bench-instructions
+	@cd benches && cargo run --quiet --release --locked --package instructions -- $(if $(UPDATE),--update)
+
 lint: fmt-check
 	cargo clippy --all-targets -- -D warnings
+	cd benches && cargo clippy --locked --package scenes --package instructions --all-targets -- -D warnings
 
 fmt-check:
 	cargo fmt --check
+	cd benches && cargo fmt --check
 
 clean:
-	rm -rf $(BUILD) out
+	rm -rf $(BUILD) out benches/target
 	cargo clean

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Installs the Debian packages that a task needs and this machine lacks; does nothing where all is there.
 #
-#   usage: tools/install-needs.sh build|test|demo
+#   usage: tools/install-needs.sh build|test|demo|bench|bench-instructions
 set -eu
 
 say() { printf '%s\n' "$*" >&2; }
@@ -38,8 +38,18 @@ if [ "$task" = test ]; then
     python3 -c 'import ensurepip' 2>/dev/null || need python3-venv
 fi
 
-if [ "$task" = demo ]; then
+if [ "$task" = demo ] || [ "$task" = bench ]; then
     has dpkg-deb || need dpkg
+fi
+
+if [ "$task" = bench ]; then
+    has strip && has readelf || need binutils
+    # One of the peers binds to Python.
+    has python3 || need python3
+fi
+
+if [ "$task" = bench-instructions ]; then
+    has valgrind || need valgrind
 fi
 
 [ -n "$missing" ] || exit 0

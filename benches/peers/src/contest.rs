@@ -24,40 +24,53 @@ pub struct Entry {
 /// How long to run.
 #[derive(Clone, Copy, Debug)]
 pub struct Plan {
-    /// Rounds; their median counts.
+    /// Rounds.
     pub rounds: usize,
     /// Frames before the clock runs.
     pub warm_up: usize,
-    /// A contestant's round ends early, but not before two frames, after this time.
+    /// A contestant's round ends early, but not before two frames, after this time. One that takes twice as long gets no
+    /// other round.
     pub budget: Duration,
 }
 
-/// Microseconds per step of each contestant, in their order: the median of the rounds.
+/// Microseconds per step of each contestant, in their order: the mean over the frames of the medians over the rounds, which
+/// a disturbance of some rounds does not touch.
 pub fn run(video: &Video, entries: &mut [Entry], plan: &Plan) -> Vec<f64> {
-    let mut rounds: Vec<Vec<f64>> = entries.iter().map(|_| Vec::new()).collect();
-    for round in 0..plan.rounds {
-        for (entry, results) in entries.iter_mut().zip(&mut rounds) {
-            let start = Instant::now();
-            entry.tracker.begin(video);
-            for frame in 0..plan.warm_up {
-                entry.tracker.step(video, frame);
-            }
-            let (mut total, mut steps) = (Duration::ZERO, 0);
-            for frame in plan.warm_up..video.frames.len() {
-                total += entry.tracker.step(video, frame);
-                steps += 1;
-                if steps >= 2 && start.elapsed() > plan.budget {
-                    break;
-                }
-            }
-            results.push(total.as_secs_f64() * 1e6 / f64::from(steps));
-            if round + 1 < plan.rounds && start.elapsed() > 2 * plan.budget {
-                // One that takes this long gets one round.
-                continue;
+    let mut times: Vec<Vec<Vec<f64>>> = entries.iter().map(|_| Vec::new()).collect();
+    let mut is_slow = vec![false; entries.len()];
+    for _ in 0..plan.rounds {
+        for ((entry, rounds), is_slow) in entries.iter_mut().zip(&mut times).zip(&mut is_slow) {
+            if !*is_slow {
+                let start = Instant::now();
+                rounds.push(round(video, entry, plan));
+                *is_slow = start.elapsed() > 2 * plan.budget;
             }
         }
     }
-    rounds.iter_mut().map(|results| median(results)).collect()
+    times.iter().map(|rounds| mean_of_medians(rounds)).collect()
+}
+
+/// Microseconds of each step after the warm-up.
+fn round(video: &Video, entry: &mut Entry, plan: &Plan) -> Vec<f64> {
+    let start = Instant::now();
+    let mut times = Vec::with_capacity(video.frames.len());
+    entry.tracker.begin(video);
+    for frame in 0..video.frames.len() {
+        let time = entry.tracker.step(video, frame);
+        if frame >= plan.warm_up {
+            times.push(time.as_secs_f64() * 1e6);
+            if times.len() >= 2 && start.elapsed() > plan.budget {
+                break;
+            }
+        }
+    }
+    times
+}
+
+fn mean_of_medians(rounds: &[Vec<f64>]) -> f64 {
+    let frames = rounds.iter().map(Vec::len).min().unwrap_or_default();
+    let of_frame = |frame: usize| median(&mut rounds.iter().map(|times| times[frame]).collect::<Vec<_>>());
+    (0..frames).map(of_frame).sum::<f64>() / frames as f64
 }
 
 /// The median, the mean of the middle two of an even number.

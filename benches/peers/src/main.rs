@@ -1,50 +1,58 @@
-//! The trackers of this library and those of others side by side: `make bench`. Prints its progress, writes
-//! `out/bench.md`.
+//! The trackers of this library and those of others side by side: `make bench`. Prints its progress, writes a table.
 //!
 //! ```text
-//! peers OUT-DIRECTORY [--library FILE] [--hog FILE] [--memory FILE] [--streams FILE]
+//! peers TABLE READINGS...      READINGS are files of lines of a name and a number, which other programs measured
 //! ```
 
 mod contest;
 mod others;
 mod ours;
+mod sections;
+mod table;
 
-use std::time::{Duration, Instant};
-use gentrack2::Algorithm;
-use scenes::*;
-use contest::*;
+use std::collections::BTreeMap;
+use std::process::ExitCode;
 
-fn main() {
-    let t0 = Instant::now();
-    let quick = std::env::args().nth(1).as_deref() == Some("ours");
-    let line = |what: &str, entries: &[Entry], us: &[f64]| {
-        print!("{:6.1}s {what:24}", t0.elapsed().as_secs_f64());
-        for (e, u) in entries.iter().zip(us) { print!(" {}={:.1}", e.name, u); }
-        println!();
-    };
-    let plan = Plan { rounds: 3, warm_up: 8, budget: Duration::from_millis(500) };
-    for &a in Algorithm::ALL {
-        let all = |v: &Video| if wants_strong(a) || a == Algorithm::OcSort { v.scored_from(STRONG) } else { v.clone() };
-        let entries = || { let mut e = vec![ours::entry(a)]; if !quick { e.extend(others::entries(a)); } e };
-        if let Some(v) = mot17_04() {
-            let mut e = entries();
-            let us = run(&all(&v), &mut e, &Plan { rounds: 3, warm_up: 10, budget: Duration::from_millis(3000) });
-            line(&format!("{} mot17", a.name()), &e, &us);
+use table::Table;
+
+const INTRODUCTION: &str = "Microseconds per step unless a unit is given; `make bench` wrote this. Trackers take turns \
+over the same frames; a number is the mean over the frames of the median over the rounds.";
+
+/// What other programs measured, by name.
+type Readings = BTreeMap<String, f64>;
+
+fn read(path: &str, readings: &mut Readings) -> Result<(), String> {
+    let text = std::fs::read_to_string(path).map_err(|e| format!("{path}: {e}"))?;
+    for line in text.lines().filter(|line| !line.is_empty()) {
+        let reading = line.split_once(' ').and_then(|(name, number)| Some((name.to_string(), number.parse().ok()?)));
+        let (name, number) = reading.ok_or_else(|| format!("{path}: {line}"))?;
+        readings.insert(name, number);
+    }
+    Ok(())
+}
+
+fn measure(arguments: &[String]) -> Result<(), String> {
+    let [path, files @ ..] = arguments else { return Err("usage: peers TABLE READINGS...".into()) };
+    let mut readings = Readings::new();
+    files.iter().try_for_each(|file| read(file, &mut readings))?;
+    let mut table = Table::default();
+    sections::mot17(&mut table);
+    sections::crowds(&mut table);
+    sections::growth(&mut table);
+    sections::large_crowds(&mut table);
+    sections::images(&mut table, &readings);
+    sections::streams(&mut table, &readings);
+    sections::memory_and_library(&mut table, &readings);
+    std::fs::write(path, table.finish(INTRODUCTION)).map_err(|e| format!("{path}: {e}"))
+}
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match measure(&arguments) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("peers: {message}");
+            ExitCode::FAILURE
         }
-        for n in [10, 100, 200, 1000, 2000, 5000, 20000] {
-            let v = Crowd::new(n, Canvas::Fixed, 1).video(40);
-            let mut e = entries();
-            if n > 1000 { e.truncate(1); }
-            let us = run(&v, &mut e, &plan);
-            line(&format!("{} crowd {n}", a.name()), &e, &us);
-        }
-        let mut pts = vec![];
-        for n in [100, 200, 500, 1000, 2000] {
-            let v = Crowd::new(n, Canvas::Growing, 1).video(40);
-            let mut e = vec![ours::entry(a)];
-            let us = run(&v, &mut e, &plan);
-            pts.push((n as f64, us[0]));
-        }
-        println!("{} growing {:?} exponent {:.3}", a.name(), pts, exponent(&pts));
     }
 }

@@ -27,9 +27,7 @@ pub fn mot17_04() -> Option<Video> {
     let mut frames = Vec::new();
     for line in text.lines() {
         let fields: Vec<f64> = line.split(',').map_while(|field| field.trim().parse().ok()).collect();
-        let [number, _, left, top, width, height, score, ..] = fields[..] else {
-            panic!("{}: {line}", path.display())
-        };
+        let [number, _, left, top, width, height, score, ..] = fields[..] else { panic!("{}: {line}", path.display()) };
         // Frames count from 1.
         let number = number as usize;
         if frames.len() < number {

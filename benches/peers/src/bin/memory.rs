@@ -1,0 +1,82 @@
+//! Memory per live track, counted by the allocator, and the resident size over many frames. Prints lines of a name and a
+//! number.
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::atomic::{AtomicI64, Ordering};
+
+use gentrack2::{Algorithm, Config, Detection, Frame, Tracker};
+use scenes::{Canvas, Crowd, Video, tracker};
+
+static LIVE: AtomicI64 = AtomicI64::new(0);
+
+struct Counting;
+
+// SAFETY: every call is passed on unchanged to the system's allocator, which keeps the contract.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        LIVE.fetch_add(layout.size() as i64, Ordering::Relaxed);
+        // SAFETY: the caller keeps `alloc`'s contract.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        LIVE.fetch_sub(layout.size() as i64, Ordering::Relaxed);
+        // SAFETY: the pointer came from `alloc` with this layout, and so from the system's allocator.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// Live bytes of a tracker, and its live tracks, after it has seen so many people stand still: tracks, with all that they
+/// remember, and buffers as large as the frame.
+fn bytes(algorithm: Algorithm, people: usize) -> (f64, f64) {
+    // Side by side, so that none overlaps another: only tracks differ.
+    let at = |i: usize| Detection::new(60.0 * (i % 100) as f64, 130.0 * (i / 100) as f64, 40.0, 100.0, 0.9);
+    let detections: Vec<Detection> = (0..people).map(at).collect();
+    let before = LIVE.load(Ordering::Relaxed);
+    let mut tracker = tracker(algorithm);
+    let mut live = 0;
+    for _ in 0..100 {
+        let output = tracker.step(&Frame::new(&detections)).expect("a valid frame");
+        live = output.reported.len() + output.tentative.len() + output.lost.len();
+    }
+    ((LIVE.load(Ordering::Relaxed) - before) as f64, live as f64)
+}
+
+/// Bytes that one more track costs, buffers for its detection included.
+fn bytes_per_track(algorithm: Algorithm) -> f64 {
+    // Buffers grow by doubling: counted where they have just been filled, at powers of two.
+    let ((few, few_tracks), (many, many_tracks)) = (bytes(algorithm, 1024), bytes(algorithm, 2048));
+    (many - few) / (many_tracks - few_tracks)
+}
+
+/// Pages in memory, in KiB.
+fn resident_kib() -> f64 {
+    let text = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = text.lines().find_map(|line| line.strip_prefix("VmRSS:"));
+    line.and_then(|l| l.trim().split(' ').next()?.parse().ok()).unwrap_or(f64::NAN)
+}
+
+fn resident_growth(algorithm: Algorithm, video: &Video) -> f64 {
+    let mut tracker = Tracker::new(&Config::of(algorithm)).expect("defaults make a tracker");
+    let mut early = f64::NAN;
+    for frame in 0..200_000 {
+        let detections = &video.frames[frame % video.frames.len()];
+        tracker.step(&Frame { size: Some(video.size), ..Frame::new(detections) }).expect("a valid frame");
+        if frame == 50_000 {
+            early = resident_kib();
+        }
+    }
+    resident_kib() - early
+}
+
+fn main() {
+    let video = Crowd::new(12, Canvas::Fixed, 1).video(1000);
+    for &algorithm in Algorithm::ALL {
+        eprintln!("memory of {}", algorithm.name());
+        println!("track_bytes.{} {:.0}", algorithm.name(), bytes_per_track(algorithm));
+        println!("resident_growth_kib.{} {:.0}", algorithm.name(), resident_growth(algorithm, &video));
+    }
+}
