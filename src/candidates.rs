@@ -1,11 +1,19 @@
-//! Which boxes of two lists overlap, found by sweeps along x, one in each of many horizontal strips, instead of by trying
-//! all pairs. In a strip only a few boxes lie above each other, however many there are in all.
+//! Which boxes of two lists overlap, found without trying all pairs: of not too many by looking from each along x
+//! ([`window`]), of more by sweeps along x, one in each of many horizontal strips. In a strip only a few boxes lie above
+//! each other, however many there are in all.
 //!
 //! With more than about a thousand boxes in both lists a row has a limited number of partners, the nearest ones: all pairs
 //! of tens of thousands of boxes on one spot do not fit into memory.
 
+mod window;
+
 use crate::assignment::refill;
 use crate::geometry::Rect;
+
+use window::Window;
+
+/// Up to so many pairs there is no need of strips.
+const NOT_MANY: usize = 1 << 18;
 
 /// Pairs for which there is always room; rows share it.
 const ROOM: usize = 1 << 20;
@@ -19,6 +27,7 @@ const STRIP_HEIGHT: f64 = 2.0;
 /// The sweep, with buffers that are reused from call to call.
 #[derive(Clone, Debug, Default)]
 pub struct OverlapSweep {
+    window: Window,
     /// The boxes of all strips, strip by strip, and where each strip begins.
     entries: Vec<Entry>,
     first: Vec<u32>,
@@ -90,7 +99,13 @@ impl Strips {
 impl OverlapSweep {
     /// The `(row, column)` whose boxes share an area, sorted by row, then column.
     pub fn pairs(&mut self, rows: &[Rect], columns: &[Rect]) -> &[(u32, u32)] {
-        self.limited_pairs(rows, columns, LEAST_PER_ROW.max(ROOM / rows.len().max(1)))
+        let most = LEAST_PER_ROW.max(ROOM / rows.len().max(1));
+        if columns.len() <= most && rows.len().saturating_mul(columns.len()) <= NOT_MANY {
+            self.pairs.clear();
+            self.window.add_pairs(rows, columns, &mut self.pairs);
+            return &self.pairs;
+        }
+        self.limited_pairs(rows, columns, most)
     }
 
     /// The same with at most so many partners per row.
@@ -292,6 +307,8 @@ mod tests {
             let mut sweep = OverlapSweep::default();
             sweep.pairs(&columns, &rows);
             prop_assert_eq!(sweep.pairs(&rows, &columns), &expected[..]);
+            sweep.limited_pairs(&columns, &rows, 1000);
+            prop_assert_eq!(sweep.limited_pairs(&rows, &columns, 1000), &expected[..]);
         }
     }
 
