@@ -1,73 +1,128 @@
-//! Overlapping boxes of not too many: columns are sorted along x, and each row looks at those in its reach. Rows come in
-//! order, so that nothing has to be sorted afterwards, and no test is a branch.
+//! Overlapping boxes of not too many: columns are put into bins along x, and each row looks at those in its reach. Rows
+//! come in order, so that nothing has to be sorted afterwards, and neither the search for the reach nor a test is a branch.
 
-use super::ordered;
+use crate::assignment::refill;
 use crate::geometry::Rect;
 
-/// Up to so many pairs are all looked at, without sorting.
+/// Up to so many pairs are all looked at, without bins.
 const ALL: usize = 512;
 
 /// The search, with buffers that are reused from call to call.
 #[derive(Clone, Debug, Default)]
 pub struct Window {
-    order: Vec<(i64, u32)>,
     columns: Vec<Column>,
+    /// For each bin the first column whose left edge is in a later one, ...
+    end: Vec<u32>,
+    /// ... and the first one that, or one before it, reaches into the bin or beyond.
+    start: Vec<u32>,
     found: Vec<u32>,
 }
 
 /// A column's box.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Column {
     left: f64,
     right: f64,
     top: f64,
     bottom: f64,
     index: u32,
-    /// The farthest right edge up to this column.
-    reach: f64,
+}
+
+/// Bins of equal width; the first and the last go on for ever. A larger number never has a lower bin, whatever rounding
+/// does, so that what a bin leaves out cannot overlap.
+#[derive(Clone, Copy, Debug)]
+struct Bins {
+    left: f64,
+    per_pixel: f64,
+    last: usize,
+}
+
+impl Bins {
+    fn new(columns: &[Rect]) -> Self {
+        let (mut left, mut right) = (f64::INFINITY, f64::NEG_INFINITY);
+        for c in columns {
+            left = left.min(c.left);
+            right = right.max(c.left);
+        }
+        let count = 2 * columns.len();
+        Self { left, per_pixel: count as f64 / (right - left), last: count - 1 }
+    }
+
+    /// The cast makes 0 of what is left of all, and of NaN.
+    fn of(&self, x: f64) -> usize {
+        (((x - self.left) * self.per_pixel) as usize).min(self.last)
+    }
 }
 
 impl Window {
     /// Adds the `(row, column)` whose boxes share an area, sorted by row, then column.
     pub fn add_pairs(&mut self, rows: &[Rect], columns: &[Rect], pairs: &mut Vec<(u32, u32)>) {
-        let is_sorted = rows.len() * columns.len() > ALL;
-        self.list(columns, is_sorted);
+        if rows.is_empty() || columns.is_empty() {
+            return;
+        }
+        let bins = (rows.len() * columns.len() > ALL).then(|| Bins::new(columns));
+        match &bins {
+            Some(bins) => self.list_by_bin(columns, bins),
+            None => self.list(columns),
+        }
+        refill(&mut self.found, columns.len() + 1, 0);
         for (row, rect) in (0..).zip(rows).filter(|(_, r)| r.area() > 0.0) {
             let (left, right, top, bottom) = (rect.left, rect.right(), rect.top, rect.bottom());
-            let mut columns = &self.columns[..];
-            if is_sorted {
-                columns = &columns[columns.partition_point(|c| c.reach <= left)..];
-                columns = &columns[..columns.partition_point(|c| c.left < right)];
-            }
-            self.found.resize(self.found.len().max(columns.len()), 0);
+            let reach = match &bins {
+                Some(bins) => self.start[bins.of(left)] as usize..self.end[bins.of(right)] as usize,
+                None => 0..self.columns.len(),
+            };
             let mut count = 0;
-            for c in columns {
+            for c in self.columns.get(reach).unwrap_or_default() {
                 let overlaps = (c.right > left) & (c.left < right) & (c.top < bottom) & (top < c.bottom);
                 // Written in any case, and written over if it was none.
                 self.found[count] = c.index;
                 count += usize::from(overlaps);
             }
             let found = &mut self.found[..count];
-            if is_sorted {
+            if bins.is_some() {
                 found.sort_unstable();
             }
             pairs.extend(found.iter().map(|column| (row, *column)));
         }
     }
 
-    fn list(&mut self, columns: &[Rect], is_sorted: bool) {
-        self.order.clear();
-        let present = (0..).zip(columns).filter(|(_, c)| c.area() > 0.0);
-        self.order.extend(present.map(|(index, c)| (ordered(c.left), index)));
-        if is_sorted {
-            self.order.sort_unstable();
-        }
+    fn list(&mut self, columns: &[Rect]) {
         self.columns.clear();
+        self.columns.extend((0..).zip(columns).filter(|(_, c)| c.area() > 0.0).map(Column::of));
+    }
+
+    /// Lists the columns by the bins of their left edges.
+    fn list_by_bin(&mut self, columns: &[Rect], bins: &Bins) {
+        let present = || (0..).zip(columns).filter(|(_, c)| c.area() > 0.0);
+        refill(&mut self.end, bins.last + 1, 0);
+        present().for_each(|(_, c)| self.end[bins.of(c.left)] += 1);
+        let mut total = 0;
+        for n in &mut self.end {
+            total += std::mem::replace(n, total);
+        }
+        refill(&mut self.columns, total as usize, Column::default());
+        for column in present() {
+            let next = &mut self.end[bins.of(column.1.left)];
+            self.columns[*next as usize] = Column::of(column);
+            *next += 1;
+        }
+        // Now each bin's number says where it ends.
+        self.start.clear();
         let mut reach = f64::NEG_INFINITY;
-        self.columns.extend(self.order.iter().map(|&(_, index)| {
-            let c = &columns[index as usize];
-            reach = reach.max(c.right());
-            Column { left: c.left, right: c.right(), top: c.top, bottom: c.bottom(), index, reach }
-        }));
+        for (index, c) in (0..).zip(&self.columns) {
+            reach = reach.max(c.right);
+            let bins = bins.of(reach) + 1;
+            if bins > self.start.len() {
+                self.start.resize(bins, index);
+            }
+        }
+        self.start.resize(bins.last + 1, total);
+    }
+}
+
+impl Column {
+    fn of((index, c): (u32, &Rect)) -> Self {
+        Self { left: c.left, right: c.right(), top: c.top, bottom: c.bottom(), index }
     }
 }
