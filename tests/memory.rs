@@ -84,6 +84,7 @@ struct Given {
 const PLAIN: Given = Given { images: false, embeddings_and_camera: false, class_policy: "ignore" };
 const SEPARATE: Given = Given { class_policy: "separate", ..PLAIN };
 const LOOKS: Given = Given { embeddings_and_camera: true, ..PLAIN };
+const IMAGES: Given = Given { images: true, ..PLAIN };
 const EVERYTHING: Given = Given { images: true, ..LOOKS };
 
 fn tracker(algorithm: Algorithm, class_policy: &str) -> Tracker {
@@ -162,10 +163,7 @@ fn ever_new_classes(algorithm: Algorithm) -> [i64; 2] {
 fn live_bytes_do_not_grow_and_warm_steps_do_not_allocate() {
     for &algorithm in Algorithm::ALL {
         let name = algorithm.name();
-        for given in [PLAIN, SEPARATE, LOOKS, EVERYTHING] {
-            if given.images && algorithm != Algorithm::GenTrack2 {
-                continue;
-            }
+        for given in [PLAIN, SEPARATE, LOOKS, IMAGES, EVERYTHING] {
             // Marks at the same point of the input's period, so that as many walkers are in the image, and as many remembered.
             let marks = if given.images { [1_000, 1_500, 3_000] } else { [5_000, 10_000, 20_000] };
             let readings = run(algorithm, given, &marks);

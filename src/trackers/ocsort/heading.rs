@@ -43,6 +43,12 @@ pub struct Heading {
 }
 
 impl Heading {
+    /// Whether a detection lies rather ahead than behind.
+    pub fn faces(&self, detected: &Rect) -> bool {
+        let (from, to) = (State::from(self.from), State::from(*detected));
+        self.direction.x * (to.u - from.u) + self.direction.y * (to.v - from.v) > 0.0
+    }
+
     /// How well a detection lies in the direction of the track, in `[-1/2, 1/2]`: straight on is 1/2, back is -1/2.
     pub fn consistency(&self, detected: &Rect) -> f64 {
         let towards = Direction::between(&self.from, detected);
@@ -65,6 +71,7 @@ mod tests {
         assert!(near(heading.consistency(&at(40.0, 40.0)), 0.25));
         assert!(near(heading.consistency(&at(0.0, 40.0)), 0.0));
         assert!(near(heading.consistency(&at(-40.0, 0.0)), -0.5));
+        assert!(heading.faces(&at(40.0, 40.0)) && !heading.faces(&at(-1.0, 40.0)));
         // Where it was there is no direction.
         assert!(near(heading.consistency(&at(0.0, 0.0)), 0.0));
     }

@@ -123,7 +123,8 @@ impl OcSort {
             let bound = |d: u32| 0.5 * p.inertia * detection(d).score;
             // Who went nowhere yet is as good for one as for another.
             let is_plain = |t: u32| view(t).heading.is_none() && context.classes.compares_all();
-            association.best_sum(&Extra { bonus, bound, is_plain, allowed });
+            let can_gain = &|d: u32, t: u32| view(t).heading.as_ref().is_some_and(|h| h.faces(&detection(d).rect));
+            association.best_sum(&Extra { bonus, can_gain, bound, is_plain, allowed });
         }
         self.take_partners(detections, true);
     }

@@ -25,9 +25,11 @@ pub fn too_many(detections: usize, tracks: usize) -> bool {
 }
 
 /// What is added to the IoU.
-pub struct Extra<B, L, P, A> {
+pub struct Extra<'a, B, L, P, A> {
     /// The addition, for a detection and a track.
     pub bonus: B,
+    /// Whether it is more than 0, which may be quicker to tell.
+    pub can_gain: &'a dyn Fn(u32, u32) -> bool,
     /// Its largest amount over all tracks, for a detection.
     pub bound: L,
     /// Whether it is 0 for a track and every detection, and every detection is allowed.
@@ -138,7 +140,7 @@ impl FullAssociation {
     }
 
     /// Matches by the largest sum of IoU and `bonus`.
-    pub fn best_sum<B, L, P, A>(&mut self, extra: &Extra<B, L, P, A>)
+    pub fn best_sum<B, L, P, A>(&mut self, extra: &Extra<'_, B, L, P, A>)
     where
         B: Fn(u32, u32) -> f64,
         L: Fn(u32) -> f64,
@@ -151,7 +153,11 @@ impl FullAssociation {
         let most = (0..rows as u32).map(&extra.bound).fold(0.0, f64::max);
         let (sizes, threshold) = ((rows, self.tracks), self.threshold);
         let (pairs, values) = (&self.pairs, &self.values);
-        if !self.certain.find(sizes, pairs, values, most, threshold, &mut self.fixed) {
+        refill(&mut self.touched, self.tracks, false);
+        pairs.iter().for_each(|p| self.touched[p.column as usize] = true);
+        let is_spare = |t: &u32| !self.touched[*t as usize] && (extra.is_plain)(*t);
+        let spare = (0..self.tracks as u32).filter(is_spare).count();
+        if !self.certain.find(sizes, pairs, values, most, spare, threshold, &mut self.fixed) {
             self.compare_the_rest(extra);
         }
         // The pairs that overlap too little are dropped.
@@ -163,7 +169,7 @@ impl FullAssociation {
     }
 
     /// Solves for the detections and tracks whose pairs are not certain, and adds them to those that are.
-    fn compare_the_rest<B, L, P, A>(&mut self, extra: &Extra<B, L, P, A>)
+    fn compare_the_rest<B, L, P, A>(&mut self, extra: &Extra<'_, B, L, P, A>)
     where
         B: Fn(u32, u32) -> f64,
         L: Fn(u32) -> f64,
@@ -175,7 +181,7 @@ impl FullAssociation {
         self.bonuses.clear();
         for row in 0..self.partners.len() {
             if self.row_hits[row] == 0 {
-                self.look_at_all(row, &extra.bonus, &extra.allowed);
+                self.look_at_all(row, extra, left_out);
             }
         }
         loop {
@@ -188,7 +194,7 @@ impl FullAssociation {
                 let price = self.solver.row_potential()[row];
                 let can_gain = price > -(extra.bound)(row as u32);
                 if can_gain && self.fixed[row] == UNMATCHED && self.whole[row] == UNMATCHED {
-                    self.look_at_all(row, &extra.bonus, &extra.allowed);
+                    self.look_at_all(row, extra, left_out);
                     is_best &= self.whole[row] == UNMATCHED;
                 }
             }
@@ -226,12 +232,20 @@ impl FullAssociation {
         &self.partners
     }
 
-    /// Lists the bonuses of a detection with all open tracks, as far as there is room.
-    fn look_at_all(&mut self, row: usize, bonus: &impl Fn(u32, u32) -> f64, allowed: &impl Fn(u32, u32) -> bool) {
+    /// Lists the bonuses of a detection with all open tracks, as far as there is room. Where it can be left out at no
+    /// price, only gains are of interest.
+    fn look_at_all<B, L, P, A>(&mut self, row: usize, extra: &Extra<'_, B, L, P, A>, left_out: f64)
+    where
+        B: Fn(u32, u32) -> f64,
+        L: Fn(u32) -> f64,
+        P: Fn(u32) -> bool,
+        A: Fn(u32, u32) -> bool,
+    {
         if self.fixed[row] == UNMATCHED && self.bonuses.len() + self.open.len() <= MOST_EXTRA {
             self.whole[row] = self.bonuses.len() as u32;
             let row = row as u32;
-            let value = |c: &u32| if allowed(row, *c) { bonus(row, *c) } else { f64::NEG_INFINITY };
+            let is_of_use = |c: u32| (extra.allowed)(row, c) && (left_out > 0.0 || (extra.can_gain)(row, c));
+            let value = |c: &u32| if is_of_use(*c) { (extra.bonus)(row, *c) } else { f64::NEG_INFINITY };
             self.bonuses.extend(self.open.iter().map(value));
         }
     }
@@ -365,7 +379,8 @@ mod tests {
             let bonus = |d: u32, t: u32| if is_plain(t) { 0.0 } else { raw[8 * d as usize + t as usize] };
             let mut association = FullAssociation::default();
             association.begin(boxes(&detections), boxes(&tracks), threshold, |_, _| true);
-            association.best_sum(&Extra { bonus, bound: |_| 0.1, is_plain, allowed: |_, _| true });
+            let can_gain = &|d: u32, t: u32| bonus(d, t) > 0.0;
+            association.best_sum(&Extra { bonus, can_gain, bound: |_| 0.1, is_plain, allowed: |_, _| true });
             let iou = |d: usize, t: usize| {
                 Rect::new(detections[d], 0.0, 10.0, 10.0).iou(&Rect::new(tracks[t], 0.0, 10.0, 10.0))
             };
