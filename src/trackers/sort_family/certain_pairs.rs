@@ -28,6 +28,9 @@ const CLEAR: f64 = 1e-9;
 /// Tests after which nothing is certain. A scene needs three or four.
 const MOST_TESTS: usize = 12;
 
+/// Overlapping pairs per row beyond which the search is not worth its while: so little is certain in such a throng.
+const MOST_PER_ROW: usize = 16;
+
 /// The search, with buffers that are reused from call to call.
 #[derive(Default)]
 pub struct CertainPairs {
@@ -50,6 +53,10 @@ impl CertainPairs {
         threshold: f64,
         certain: &mut Vec<u32>,
     ) -> bool {
+        if pairs.len() > MOST_PER_ROW * sizes.0 {
+            refill(certain, sizes.0, UNMATCHED);
+            return false;
+        }
         let left_out = |certain: &[u32]| certain.iter().filter(|c| **c == UNMATCHED).count();
         // At least the rows that overlap nothing are left out.
         let with_pairs = pairs.chunk_by(|a, b| a.row == b.row).count();
