@@ -13,7 +13,7 @@ use crate::geometry::Rect;
 use window::Window;
 
 /// Up to so many pairs there is no need of strips.
-const NOT_MANY: usize = 1 << 18;
+const NOT_MANY: usize = 1 << 23;
 
 /// Pairs for which there is always room; rows share it.
 const ROOM: usize = 1 << 20;
@@ -100,9 +100,9 @@ impl OverlapSweep {
     /// The `(row, column)` whose boxes share an area, sorted by row, then column.
     pub fn pairs(&mut self, rows: &[Rect], columns: &[Rect]) -> &[(u32, u32)] {
         let most = LEAST_PER_ROW.max(ROOM / rows.len().max(1));
-        if columns.len() <= most && rows.len().saturating_mul(columns.len()) <= NOT_MANY {
-            self.pairs.clear();
-            self.window.add_pairs(rows, columns, &mut self.pairs);
+        let are_not_many = rows.len().saturating_mul(columns.len()) <= NOT_MANY;
+        self.pairs.clear();
+        if are_not_many && self.window.add_pairs(rows, columns, most, &mut self.pairs) {
             return &self.pairs;
         }
         self.limited_pairs(rows, columns, most)

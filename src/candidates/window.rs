@@ -55,10 +55,11 @@ impl Bins {
 }
 
 impl Window {
-    /// Adds the `(row, column)` whose boxes share an area, sorted by row, then column.
-    pub fn add_pairs(&mut self, rows: &[Rect], columns: &[Rect], pairs: &mut Vec<(u32, u32)>) {
+    /// Adds the `(row, column)` whose boxes share an area, sorted by row, then column; gives up, and returns false, at a row
+    /// with more than `most` of them.
+    pub fn add_pairs(&mut self, rows: &[Rect], columns: &[Rect], most: usize, pairs: &mut Vec<(u32, u32)>) -> bool {
         if rows.is_empty() || columns.is_empty() {
-            return;
+            return true;
         }
         let bins = (rows.len() * columns.len() > ALL).then(|| Bins::new(columns));
         match &bins {
@@ -79,12 +80,16 @@ impl Window {
                 self.found[count] = c.index;
                 count += usize::from(overlaps);
             }
+            if count > most {
+                return false;
+            }
             let found = &mut self.found[..count];
             if bins.is_some() {
                 found.sort_unstable();
             }
             pairs.extend(found.iter().map(|column| (row, *column)));
         }
+        true
     }
 
     fn list(&mut self, columns: &[Rect]) {
