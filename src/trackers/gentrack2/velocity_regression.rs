@@ -181,9 +181,7 @@ impl Sides {
             above[lane] = if high < above[lane] { high } else { above[lane] };
         };
         for chunk in chunks {
-            for lane in 0..LANES {
-                take(lane, chunk[lane]);
-            }
+            chunk.iter().enumerate().for_each(|(lane, x)| take(lane, *x));
         }
         rest.iter().for_each(|x| take(0, *x));
         Self {
