@@ -32,6 +32,7 @@ WITHOUT = [
     ("lost-cost", "lost_cost=0"),
     ("score-gates", "low_score_gate=1,doubt_score=0"),
     ("birth-suppression", "birth_iou=1"),
+    ("late-gate", "late_gate=0"),
     ("confirmation", "confirm_hits=1,confirm_evidence=0"),
     ("evidence", "confirm_evidence=0"),
     ("reacquisition", "reacquire_reach=0"),

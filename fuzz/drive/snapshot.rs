@@ -33,7 +33,7 @@ pub fn run(data: &[u8]) {
 fn played(bytes: &mut Bytes) -> Tracker {
     let algorithm = *bytes.pick(Algorithm::ALL);
     let mut config = Config::of(algorithm);
-    let policy: &str = *bytes.pick(&["ignore", "same_class", "separate"]);
+    let policy: &&str = bytes.pick(&["ignore", "same_class", "separate"]);
     config.set_text("class_policy", policy).expect("these exist");
     let mut tracker = Tracker::new(&config).expect("defaults are fine");
     for _ in 0..bytes.below(6) {

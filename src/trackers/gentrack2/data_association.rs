@@ -82,23 +82,71 @@ impl DataAssociation {
         columns.clear();
         columns.extend((0..observations.len()).map(|j| widened(&observations.get(j).state, reach)));
         for &(row, column) in self.sweep.pairs(rows, columns) {
-            let (target, observed) = (&targets[row as usize], observations.get(column as usize));
-            if target.dormant || !rule.allows(target.life.last.class_id, observed.detection.class_id) {
-                continue;
-            }
-            // Where looks speak, motion need not be taken less seriously.
-            let softness = if sight.speaks(p, target) { 1.0 } else { softness(p, target, scene) };
-            let Some(mut cost) = motion_part(p, target, observed, scene, softness) else { continue };
-            cost += embedding_part(p, target, observations, column as usize);
-            // Looking is dear: not where the pair is out already.
-            if cost <= p.cost_gate + p.hog_gate {
-                cost += looks_part(p, target, observations, column as usize, sight);
-            }
-            if cost <= p.cost_gate {
-                self.edges.push(Edge { row, column, cost });
-            }
+            let target = &targets[row as usize];
+            let cost = pair_cost(p, target, observations, column as usize, scene, rule, p.cost_gate, sight);
+            self.edges.extend(cost.map(|cost| Edge { row, column, cost }));
         }
     }
+}
+
+/// Before a detection starts a track, and so leaves a target and its successor side by side: of the `unseen` targets that
+/// are still without a detection the one with which it costs least, up to `late_gate` beyond the gate.
+#[allow(clippy::too_many_arguments)]
+pub fn latecomer(
+    p: &GenTrack2Parameters,
+    targets: &[Target],
+    unseen: &[u32],
+    observations: &mut Observations,
+    index: usize,
+    scene: &SceneResidual,
+    rule: ClassRule,
+    sight: &mut Sight<'_, '_>,
+) -> Option<usize> {
+    if p.late_gate == 0.0 {
+        return None;
+    }
+    let mut best = None;
+    let mut gate = p.cost_gate + p.late_gate;
+    for slot in unseen.iter().map(|slot| *slot as usize) {
+        let target = &targets[slot];
+        // It may have been found by now. Whoever is known by looks is recognised by them, or is not the one.
+        if target.is_strong() || sight.speaks(p, target) {
+            continue;
+        }
+        if let Some(cost) = pair_cost(p, target, observations, index, scene, rule, gate, sight)
+            && (best.is_none() || cost < gate)
+        {
+            (best, gate) = (Some(slot), cost);
+        }
+    }
+    best
+}
+
+/// The cost of a pair, `None` if it is inadmissible or beyond the gate.
+#[allow(clippy::too_many_arguments)]
+fn pair_cost(
+    p: &GenTrack2Parameters,
+    target: &Target,
+    observations: &mut Observations,
+    column: usize,
+    scene: &SceneResidual,
+    rule: ClassRule,
+    gate: f64,
+    sight: &mut Sight<'_, '_>,
+) -> Option<f64> {
+    let observed = observations.get(column);
+    if target.dormant || !rule.allows(target.life.last.class_id, observed.detection.class_id) {
+        return None;
+    }
+    // Where looks speak, motion need not be taken less seriously.
+    let softness = if sight.speaks(p, target) { 1.0 } else { softness(p, target, scene) };
+    let mut cost = motion_part(p, target, observed, scene, softness)?;
+    cost += embedding_part(p, target, observations, column);
+    // Looking is dear: not where the pair is out already.
+    if cost <= gate + p.hog_gate {
+        cost += looks_part(p, target, observations, column, sight);
+    }
+    (cost <= gate).then_some(cost)
 }
 
 fn widened(state: &State, reach: f64) -> Rect {
@@ -380,6 +428,36 @@ mod tests {
         let row = targets[0].matched.index().map(|i| observations.get(i).row);
         assert_eq!(row, Some(1));
         assert_eq!(association.taken, [true, false]);
+    }
+
+    #[test]
+    fn a_latecomer_is_the_cheapest_of_the_unseen_a_little_beyond_the_gate() {
+        let state = State::new(0.0, 0.0, 30.0, 40.0);
+        let at = |u: f64| State::new(u, 0.0, 30.0, 40.0);
+        let unseen = |u: f64| {
+            let mut target = target_at(at(u), &[at(u)]);
+            target.matched = Match::None;
+            target
+        };
+        let mut observations = Observations::default();
+        observations.prepare(&Frame::new(&[Detection { rect: state.into(), score: 1.0, ..Default::default() }]), 0.0);
+        let p = GenTrack2Parameters { distance_scale_min: 1.0, cost_gate: 0.05, late_gate: 0.1, ..literal() };
+        let mut find = |p: &GenTrack2Parameters, targets: &[Target]| {
+            let slots: Vec<u32> = (0..targets.len() as u32).collect();
+            let mut sight = Sight { image: None, hog: &mut HogWorkspace::default() };
+            let scene = SceneResidual::default();
+            latecomer(p, targets, &slots, &mut observations, 0, &scene, ClassRule::default(), &mut sight)
+        };
+        // At 12 px the IoU is 3/7 and the distance 12 of 50: .7 * 4/7 * .24 = .096; at 15 px .7 * 2/3 * .3 = .14; at
+        // 18 px .7 * 3/4 * .36 = .189, beyond .15.
+        let targets = [unseen(18.0), unseen(15.0), unseen(-12.0)];
+        assert_eq!(find(&p, &targets), Some(2));
+        assert_eq!(find(&p, &targets[..2]), Some(1));
+        assert_eq!(find(&p, &targets[..1]), None);
+        assert_eq!(find(&GenTrack2Parameters { late_gate: 0.0, ..p.clone() }, &targets), None);
+        // One that has been found in the meantime.
+        let found = [unseen(15.0), target_at(at(-12.0), &[at(-12.0)])];
+        assert_eq!(find(&p, &found), Some(0));
     }
 
     #[test]

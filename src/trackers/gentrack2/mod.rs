@@ -99,6 +99,8 @@ struct Workspace {
     expanded: Neighbours,
     association: DataAssociation,
     births: Births,
+    /// Slots of the confirmed targets that the association left without a detection.
+    unseen: Vec<u32>,
     regression: VelocityRegression,
     trusted: TrustedMedian,
     covering: Covering,
@@ -244,13 +246,29 @@ impl GenTrack2 {
         work.births.choose(p, &memory.targets, &work.observations, &work.association.taken, rule, room);
         // Those born in this frame are not asked whether they are somebody else.
         let known = memory.targets.len();
+        work.unseen.clear();
+        if !work.births.chosen.is_empty() {
+            let slots = memory.targets.iter().zip(0..).filter(|(t, _)| t.confirmed && !t.is_strong());
+            work.unseen.extend(slots.map(|(_, slot)| slot));
+        }
         for nth in 0..work.births.chosen.len() {
             let index = work.births.chosen[nth];
             let observed = work.observations.get(index as usize);
             let (row, detection) = (observed.row, observed.detection);
             let mut sight = Sight { image: frame.image.as_ref(), hog: &mut work.swarm.hog };
             let (lost, seen, number) = (&memory.targets[..known], &mut work.observations, index as usize);
-            let found = reacquisition::find(p, lost, seen, number, rule, &mut sight)
+            let scene = &memory.scene;
+            if let Some(found) =
+                data_association::latecomer(p, lost, &work.unseen, seen, number, scene, rule, &mut sight)
+            {
+                let target = &mut memory.targets[found];
+                memory.record.found(target, &detection.rect);
+                target.matched = Match::Detection(index);
+                strong_update::update(p, target, row, &detection, &memory.whiteness.trust(p));
+                work.learn(p, target, number, frame, memory.time, ticks);
+                continue;
+            }
+            let found = reacquisition::find(p, lost, &work.unseen, seen, number, rule, &mut sight)
                 .or_else(|| recognition::find(p, lost, seen, number, rule, &mut sight));
             if let Some(found) = found {
                 let target = &mut memory.targets[found];

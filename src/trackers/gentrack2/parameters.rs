@@ -209,6 +209,10 @@ parameters! {
         // Births (eq. 10).
         /// Smallest score of a detection that starts a track.
         birth_score: f64 = 0.69, [0.0, 1.0], "", "";
+        /// A detection that would start a track goes to a confirmed target without one instead if their cost is at most
+        /// this much beyond `cost_gate`: that it lives on is likelier than that another is born where it should be. 0
+        /// turns it off.
+        late_gate: f64 = 0.05, [0.0, 2.0], "", "";
         /// No birth where a track matched or born in this frame overlaps by more than this IoU; 1 turns it off.
         birth_iou: f64 = 0.51, [0.0, 1.0], "", "";
         /// Before a detection starts a track, targets that went out of sight behind another are asked whether it is one
@@ -350,6 +354,7 @@ impl GenTrack2Parameters {
                 low_score_gate: 1.0,
                 doubt_score: 0.0,
                 birth_iou: 1.0,
+                late_gate: 0.0,
                 reacquire_reach: 0.0,
                 confirm_hits: 1,
                 strong_update: StrongUpdate::Replace,

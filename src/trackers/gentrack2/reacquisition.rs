@@ -30,6 +30,7 @@ const COVERED_ROW: f64 = 0.5;
 pub fn find(
     p: &GenTrack2Parameters,
     targets: &[Target],
+    unseen: &[u32],
     observations: &mut Observations,
     index: usize,
     rule: ClassRule,
@@ -39,15 +40,15 @@ pub fn find(
         return None;
     }
     let Observed { state: detected, detection, .. } = *observations.get(index);
-    let visible = visible_rows(targets, &detection.rect);
     let mut best = None;
-    for (slot, target) in targets.iter().enumerate() {
+    for slot in unseen.iter().map(|slot| *slot as usize) {
+        let target = &targets[slot];
         if !rule.allows(target.life.last.class_id, detection.class_id) {
             continue;
         }
         let Some(detour) = detour(p, target, &detected) else { continue };
         let nearer = best.is_none_or(|(_, least)| detour < least);
-        if nearer && looks_alike(p, target, observations, index, &visible, sight) {
+        if nearer && looks_alike(p, target, targets, observations, index, sight) {
             best = Some((slot, detour));
         }
     }
@@ -72,17 +73,21 @@ fn detour(p: &GenTrack2Parameters, target: &Target, detected: &State) -> Option<
 fn looks_alike(
     p: &GenTrack2Parameters,
     target: &Target,
+    targets: &[Target],
     observations: &mut Observations,
     index: usize,
-    visible: &[bool; ROWS],
     sight: &mut Sight<'_, '_>,
 ) -> bool {
     if embedding_part(p, target, observations, index) > 0.0 {
         return false;
     }
+    let detected = observations.get(index).detection.rect;
     let seen = observations.looks(index, sight.image, sight.hog).filter(|_| p.hog_cost > 0.0 && target.has_looks);
     // What comes out from behind another shows a part of itself, and for the rest the other.
-    seen.is_none_or(|seen| target.looks.of_rows(visible).unlikeness(p, &seen.of_rows(visible)) <= STRANGE)
+    seen.is_none_or(|seen| {
+        let visible = visible_rows(targets, &detected);
+        target.looks.of_rows(&visible).unlikeness(p, &seen.of_rows(&visible)) <= STRANGE
+    })
 }
 
 /// Which rows of a detection's box no strong target in front of it hides.
@@ -188,7 +193,8 @@ mod tests {
         observations.prepare(&frame, 0.0);
         let mut found = |targets: &[Target], p: &GenTrack2Parameters| {
             let mut sight = Sight { image: None, hog: &mut HogWorkspace::default() };
-            find(p, targets, &mut observations, 0, ClassRule::default(), &mut sight)
+            let unseen: Vec<u32> = (0..targets.len() as u32).collect();
+            find(p, targets, &unseen, &mut observations, 0, ClassRule::default(), &mut sight)
         };
         assert_eq!(found(&targets, &parameters()), Some(1));
         assert_eq!(found(&targets, &GenTrack2Parameters { reacquire_reach: 0.0, ..parameters() }), None);
