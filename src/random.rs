@@ -20,11 +20,11 @@ impl Random {
         (self.0.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
     }
 
-    /// Two numbers uniform in `[0, 1)`, with 32 random bits each: for half the price where that is fine enough.
-    pub fn unit_pair(&mut self) -> (f64, f64) {
-        const SCALE: f64 = 1.0 / (1u64 << 32) as f64;
+    /// Four numbers uniform in `[0, 1)`, with 16 random bits each: for a quarter of the price where that is fine enough.
+    pub fn unit_quad(&mut self) -> [f64; 4] {
+        const SCALE: f64 = 1.0 / (1u64 << 16) as f64;
         let bits = self.0.next_u64();
-        ((bits >> 32) as f64 * SCALE, (bits as u32) as f64 * SCALE)
+        [48, 32, 16, 0].map(|shift| f64::from((bits >> shift) as u16) * SCALE)
     }
 
     /// Uniform in `[-bound, bound)`.
@@ -47,12 +47,13 @@ mod tests {
     const GOLDEN: [u64; 3] = [4601542274839127056, 4596439488580453296, 4593733170227320252];
 
     #[test]
-    fn pairs_are_the_halves_of_one_draw() {
-        // The golden first draw in full: its upper half is the leading 32 of the 53 bits of `unit`.
-        let (upper, lower) = Random::new(1, 2).unit_pair();
+    fn quads_are_the_quarters_of_one_draw() {
+        // The golden first draw in full: its first quarter is the leading 16 of the 53 bits of `unit`.
+        let quad = Random::new(1, 2).unit_quad();
         let whole = Random::new(1, 2).unit();
-        assert!(whole >= upper && whole - upper < 1.0 / (1u64 << 32) as f64);
-        assert!((0.0..1.0).contains(&lower) && lower != upper);
+        assert!(whole >= quad[0] && whole - quad[0] < 1.0 / (1u64 << 16) as f64);
+        assert!(quad.iter().all(|x| (0.0..1.0).contains(x)));
+        assert!(quad[1..].iter().all(|x| *x != quad[0]));
     }
 
     #[test]

@@ -45,7 +45,7 @@ impl Looks {
         part
     }
 
-    fn blend(&mut self, seen: &Looks, momentum: f64) {
+    pub fn blend(&mut self, seen: &Looks, momentum: f64) {
         blend(&mut self.shape, &seen.shape, momentum);
         blend(&mut self.tones, &seen.tones, momentum);
     }
@@ -61,11 +61,7 @@ pub fn learn(
     hog: &mut HogWorkspace,
 ) {
     if let Some(seen) = observations.looks(index, image, hog) {
-        match target.has_looks {
-            true => target.looks.blend(seen, p.template_momentum),
-            false => (*target.looks).clone_from(seen),
-        }
-        target.has_looks = true;
+        target.learn_looks(seen, p.template_momentum);
     }
     if let Some(seen) = observations.embedding(index) {
         target.embedding.learn(seen, p.template_momentum);
@@ -153,6 +149,6 @@ mod tests {
         let distance = target.embedding.distance(&[1.0, 0.0]).unwrap();
         // The mean of (1, 0) and (0, 1), normalised: both components sqrt(1/2).
         assert!((distance - (1.0 - 0.5f64.sqrt())).abs() < 1e-6, "{distance}");
-        assert!(!target.has_looks);
+        assert!(!target.has_looks());
     }
 }

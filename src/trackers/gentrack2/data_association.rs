@@ -34,7 +34,7 @@ pub struct Sight<'a, 'i> {
 impl Sight<'_, '_> {
     /// Whether looks take part in the cost of a target's pairs.
     fn speaks(&self, p: &GenTrack2Parameters, target: &Target) -> bool {
-        p.hog_cost > 0.0 && self.image.is_some() && target.has_looks
+        p.hog_cost > 0.0 && self.image.is_some() && target.has_looks()
     }
 }
 
@@ -254,11 +254,9 @@ pub fn unlikeness(
     column: usize,
     sight: &mut Sight<'_, '_>,
 ) -> Option<f64> {
-    if !target.has_looks {
-        return None;
-    }
+    let looks = target.looks()?;
     let seen = observations.looks(column, sight.image, sight.hog)?;
-    Some(target.looks.unlikeness(p, seen))
+    Some(looks.unlikeness(p, seen))
 }
 
 #[cfg(test)]

@@ -1,7 +1,5 @@
 //! Fitness of a particle (eq. 4-6), each term in `[0, 1]`.
 
-use crate::geometry::State;
-
 use super::parameters::GenTrack2Parameters;
 
 /// Weights of history, exploration and social fitness, summing to 1 (eq. 4).
@@ -28,9 +26,8 @@ impl Weights {
     }
 }
 
-/// `f_m` of eq. 5: 1 at no distance, 0 from `limit` pixels on.
-pub fn motion(a: &State, b: &State, limit: f64) -> f64 {
-    let distance = a.distance(b);
+/// `f_m` of eq. 5 at a distance in pixels: 1 at none, 0 from `limit` on.
+pub fn motion(distance: f64, limit: f64) -> f64 {
     // The limit of a box that a camera motion shrank to nothing is 0.
     if distance < limit { 1.0 - distance / limit } else { 0.0 }
 }
@@ -60,25 +57,15 @@ pub struct Social {
 }
 
 impl Social {
-    /// `f_PSO^i` (eq. 6): how far the particle keeps from its neighbours, in position and velocity; 1 without any.
-    pub fn fitness<'a>(
-        &self,
-        state: &State,
-        velocity: &State,
-        neighbours: impl Iterator<Item = &'a (State, State)>,
-    ) -> f64 {
-        let (mut position, mut motion, mut count) = (0.0, 0.0, 0);
-        for (other, other_velocity) in neighbours {
-            position += state.distance(other).min(self.position_limit);
-            motion += velocity.distance(other_velocity).min(self.velocity_limit);
-            count += 1;
-        }
-        if count == 0 {
+    /// `f_PSO^i` (eq. 6): how far the particle keeps from its neighbours, in position and velocity, given the sums of its
+    /// distances to them, each up to its limit; 1 without any.
+    pub fn fitness(&self, position: f64, velocity: f64, neighbours: usize) -> f64 {
+        if neighbours == 0 {
             return 1.0;
         }
-        let mean = |sum: f64, limit: f64| if limit > 0.0 { sum / (count as f64 * limit) } else { 1.0 };
+        let mean = |sum: f64, limit: f64| if limit > 0.0 { sum / (neighbours as f64 * limit) } else { 1.0 };
         self.position_share * mean(position, self.position_limit)
-            + (1.0 - self.position_share) * mean(motion, self.velocity_limit)
+            + (1.0 - self.position_share) * mean(velocity, self.velocity_limit)
     }
 }
 
@@ -98,11 +85,11 @@ mod tests {
 
     #[test]
     fn equation_5_motion_falls_to_zero_at_the_limit() {
-        let a = State::new(0.0, 0.0, 30.0, 40.0);
         // 5 px of 50: 1 - .1.
-        assert!((motion(&a, &State::new(3.0, 4.0, 30.0, 40.0), 50.0) - 0.9).abs() < 1e-12);
-        assert_eq!(motion(&a, &State::new(80.0, 0.0, 30.0, 40.0), 50.0), 0.0);
-        assert_eq!(motion(&a, &a, 50.0), 1.0);
+        assert!((motion(5.0, 50.0) - 0.9).abs() < 1e-12);
+        assert_eq!(motion(80.0, 50.0), 0.0);
+        assert_eq!(motion(0.0, 50.0), 1.0);
+        assert_eq!(motion(0.0, 0.0), 0.0);
     }
 
     #[test]
@@ -124,12 +111,9 @@ mod tests {
     #[test]
     fn equation_6_is_one_without_neighbours_and_grows_with_distance() {
         let social = Social { position_share: 0.5, position_limit: 100.0, velocity_limit: 10.0 };
-        let (x, v) = (State::new(0.0, 0.0, 30.0, 40.0), State::new(1.0, 0.0, 0.0, 0.0));
-        assert_eq!(social.fitness(&x, &v, [].iter()), 1.0);
+        assert_eq!(social.fitness(0.0, 0.0, 0), 1.0);
         // Neighbour A 50 px away, velocity difference 4; neighbour B 300 px away (counts 100), difference 0:
         // position .5 * (50 + 100) / 200 = .375, velocity .5 * (4 + 0) / 20 = .1.
-        let near = (State::new(50.0, 0.0, 30.0, 40.0), State::new(5.0, 0.0, 0.0, 0.0));
-        let far = (State::new(0.0, 300.0, 30.0, 40.0), v);
-        assert!((social.fitness(&x, &v, [near, far].iter()) - 0.475).abs() < 1e-12);
+        assert!((social.fitness(150.0, 4.0, 2) - 0.475).abs() < 1e-12);
     }
 }

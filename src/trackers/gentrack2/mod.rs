@@ -21,6 +21,7 @@ mod common_motion;
 mod covering;
 mod data_association;
 mod fitness;
+mod flight;
 mod neighbours;
 mod new_tracks;
 mod observations;
@@ -161,7 +162,7 @@ impl GenTrack2 {
             resampling::refill(target, p.particles as usize);
             particle_sampling::sample(p, target, ticks);
             let looking = p.lambda_s > 0.0
-                && target.has_looks
+                && target.has_looks()
                 && frame.image.is_some_and(|i| work.swarm.hog.prepare(&i, &target.predicted.into(), SEARCH_MARGIN));
             let neighbours = work.neighbours.of(index).iter().map(|j| work.predictions[*j as usize]);
             work.swarm.guide(p, target, neighbours, ticks, looking);

@@ -82,11 +82,12 @@ fn looks_alike(
         return false;
     }
     let detected = observations.get(index).detection.rect;
-    let seen = observations.looks(index, sight.image, sight.hog).filter(|_| p.hog_cost > 0.0 && target.has_looks);
+    let known = target.looks().filter(|_| p.hog_cost > 0.0);
+    let both = known.and_then(|known| Some((known, observations.looks(index, sight.image, sight.hog)?)));
     // What comes out from behind another shows a part of itself, and for the rest the other.
-    seen.is_none_or(|seen| {
+    both.is_none_or(|(known, seen)| {
         let visible = visible_rows(targets, &detected);
-        target.looks.of_rows(&visible).unlikeness(p, &seen.of_rows(&visible)) <= STRANGE
+        known.of_rows(&visible).unlikeness(p, &seen.of_rows(&visible)) <= STRANGE
     })
 }
 

@@ -26,7 +26,7 @@ pub fn is_remembered(p: &GenTrack2Parameters, target: &Target) -> bool {
 }
 
 fn is_known(target: &Target) -> bool {
-    target.confirmed && target.has_looks && target.life.hits >= KNOWN_HITS
+    target.confirmed && target.has_looks() && target.life.hits >= KNOWN_HITS
 }
 
 /// The lost target that detection `index` looks like.
@@ -137,10 +137,10 @@ mod tests {
             target.life.hits = 5;
             target.missed = 50.0;
             self.look(true, |observations, sight| {
-                *target.looks = observations.looks(0, sight.image, sight.hog).unwrap().clone();
+                let mut looks = observations.looks(0, sight.image, sight.hog).unwrap().clone();
+                looks.tones.iter_mut().for_each(|tone| *tone *= 1.0 - strange);
+                target.learn_looks(&looks, 0.0);
             });
-            target.looks.tones.iter_mut().for_each(|tone| *tone *= 1.0 - strange);
-            target.has_looks = true;
             target
         }
     }
@@ -201,7 +201,7 @@ mod tests {
         assert!(!found(|t| t.missed = 101.0));
         assert!(!found(|t| t.confirmed = false));
         assert!(!found(|t| t.life.hits = 4));
-        assert!(!found(|t| t.has_looks = false));
+        assert!(!found(|t| t.forget_looks()));
         assert!(!found(|t| t.history.clear()));
         // 40 px against 28 and 29.
         assert!(!found(|t| t.history[0].state.h = 28.0));

@@ -1,15 +1,17 @@
 //! PSO guidance: moves a target's particles towards the mode of its state distribution.
 //!
 //! Kennedy and Eberhart's swarm: a particle keeps a share of its swarm velocity and is pulled towards its own best and
-//! the swarm's best position, best by the fitness of eq. 4.
+//! the swarm's best position, best by the fitness of eq. 4. All move before any is rated anew, so that what is done for
+//! one is done for several at once.
 
 use crate::appearance::{Descriptor, HogWorkspace, cosine};
 use crate::geometry::State;
 
 use super::fitness::{Social, Weights, appearance, motion, similarity};
+use super::flight::{Columns, Flight};
 use super::parameters::{GenTrack2Parameters, HistoryReference};
-use super::particle_sampling::{bounded, noise_bound, velocity_bound};
-use super::target::{Hypothesis, Target};
+use super::particle_sampling::{noise_bound, velocity_bound};
+use super::target::Target;
 
 /// How far beyond the predicted box, in multiples of its size, a target's particles can be looked at.
 pub const SEARCH_MARGIN: f64 = 1.6;
@@ -20,16 +22,18 @@ pub struct Swarm {
     /// Descriptors of candidate boxes.
     pub hog: HogWorkspace,
     neighbours: Vec<(State, State)>,
-    motion: Vec<State>,
-    current: Vec<Hypothesis>,
-    descriptors: Vec<Option<Descriptor>>,
+    flight: Flight,
+    ratings: Ratings,
+    looks: Vec<Looks>,
 }
 
-/// A particle's fitness and the history term of it.
-#[derive(Clone, Copy)]
-struct Rating {
-    total: f64,
-    history: f64,
+/// What one particle looks like: its box, if it can be seen, and how that compares with the template and with itself
+/// before its last move.
+#[derive(Clone, Copy, Default)]
+struct Looks {
+    seen: Option<Descriptor>,
+    with_history: Option<f64>,
+    with_before: Option<f64>,
 }
 
 /// What all particles of one target are compared with.
@@ -56,95 +60,109 @@ impl Swarm {
     ) {
         self.neighbours.clear();
         self.neighbours.extend(neighbours);
-        let count = target.particles.len();
-        self.current.clear();
-        self.current.extend_from_slice(&target.particles);
-        self.motion.clear();
-        self.motion.resize(count, State::default());
-        self.descriptors.clear();
-        self.descriptors.resize(count, None);
+        self.flight.begin(&target.particles);
 
         let bound = velocity_bound(p, &target.state);
-        let template = if looking && target.has_looks { Some(target.looks.shape) } else { None };
+        let template = target.looks().filter(|_| looking).map(|looks| looks.shape);
         let reference = reference(p, target, &bound, template);
-        let mut best = (0, Rating { total: f64::NEG_INFINITY, history: 0.0 });
+        // Descriptors are large: none are set up where there is nothing to see.
+        self.looks.clear();
+        if reference.template.is_some() {
+            self.looks.resize(target.particles.len(), Looks::default());
+        }
+        let mut best = 0;
+        let mut best_rating = (f64::NEG_INFINITY, 0.0);
         for iteration in 0..=p.pso_iterations {
-            for index in 0..count {
-                let before = self.current[index].state;
-                if iteration > 0 {
-                    self.fly(p, target, index, best.0, ticks, &bound);
+            if iteration > 0 {
+                let size = (target.state.w, target.state.h);
+                self.flight.advance(p, size, best, ticks, &bound, &mut target.random);
+            }
+            self.look(&reference);
+            self.ratings.rate(&reference, &self.flight, &self.neighbours, &self.looks);
+            for (index, own_best) in target.particles.iter_mut().enumerate() {
+                let rating = self.ratings.total[index];
+                if iteration == 0 || rating > own_best.fitness {
+                    *own_best = self.flight.keep(index, rating);
                 }
-                let rating = self.rate(&reference, index, &before);
-                let own_best = &mut target.particles[index];
-                if iteration == 0 || rating.total > own_best.fitness {
-                    *own_best = Hypothesis { fitness: rating.total, ..self.current[index] };
-                }
-                if rating.total > best.1.total {
-                    best = (index, rating);
+                if rating > best_rating.0 {
+                    best = index;
+                    best_rating = (rating, self.ratings.history[index]);
                 }
             }
         }
-        target.global_best = target.particles[best.0].state;
+        target.global_best = target.particles[best].state;
         target.looked_at = reference.template.is_some();
-        target.global_fitness = if reference.template.is_some() { best.1.history } else { p.blind_fitness };
+        target.global_fitness = if reference.template.is_some() { best_rating.1 } else { p.blind_fitness };
     }
 
-    /// One move of one particle.
-    fn fly(
-        &mut self,
-        p: &GenTrack2Parameters,
-        target: &mut Target,
-        index: usize,
-        best: usize,
-        ticks: f64,
-        bound: &State,
-    ) {
-        let here = self.current[index];
-        let to_own = target.particles[index].state - here.state;
-        let to_best = target.particles[best].state - here.state;
-        let mut pull = |towards: f64, everyone: f64| {
-            let (own, social) = target.random.unit_pair();
-            p.pso_cognitive * own * towards + p.pso_social * social * everyone
-        };
-        let pulled = State::new(
-            pull(to_own.u, to_best.u),
-            pull(to_own.v, to_best.v),
-            pull(to_own.w, to_best.w),
-            pull(to_own.h, to_best.h),
-        );
-        let motion = self.motion[index] * p.pso_inertia + pulled;
-        self.motion[index] = motion;
-        let mut state = here.state + motion;
-        // A box never turns inside out.
-        state.w = state.w.max(0.1 * target.state.w);
-        state.h = state.h.max(0.1 * target.state.h);
-        // The particle got here faster, or slower, than its velocity said.
-        let velocity = bounded(here.velocity + motion * (1.0 / ticks), bound);
-        self.current[index] = Hypothesis { state, velocity, fitness: 0.0 };
-    }
-
-    fn rate(&mut self, reference: &Reference, index: usize, before: &State) -> Rating {
-        let here = self.current[index];
-        let (mut with_history, mut with_before) = (None, None);
-        if let Some(template) = &reference.template {
+    /// Compares what the particles look like, if there is something to look at.
+    fn look(&mut self, reference: &Reference) {
+        let Some(template) = &reference.template else { return };
+        let scaled = |a: &Descriptor, b: &Descriptor| appearance(cosine(a, b) as f64, reference.hog_offset);
+        for (index, looks) in self.looks.iter_mut().enumerate() {
             let mut descriptor = [0.0; _];
-            let seen = self.hog.describe(&here.state.into(), &mut descriptor).then_some(descriptor);
-            let scaled = |a: &Descriptor, b: &Descriptor| appearance(cosine(a, b) as f64, reference.hog_offset);
-            with_history = seen.as_ref().map(|s| scaled(s, template));
-            with_before = seen.as_ref().zip(self.descriptors[index].as_ref()).map(|(s, b)| scaled(s, b));
-            if with_before.is_none() && seen.is_some() && *before == here.state {
+            let here = self.flight.state(index);
+            let seen = self.hog.describe(&here.into(), &mut descriptor).then_some(descriptor);
+            let with_history = seen.as_ref().map(|s| scaled(s, template));
+            let mut with_before = seen.as_ref().zip(looks.seen.as_ref()).map(|(s, b)| scaled(s, b));
+            if with_before.is_none() && seen.is_some() && self.flight.before(index) == here {
                 with_before = Some(1.0);
             }
-            self.descriptors[index] = seen;
+            *looks = Looks { seen, with_history, with_before };
         }
-        let compare = |appearance, other: &State| {
-            similarity(reference.lambda_s, appearance, motion(&here.state, other, reference.distance_limit))
-        };
-        let history = compare(with_history, &reference.state);
-        let exploration = compare(with_before, before);
-        let social = reference.social.fitness(&here.state, &here.velocity, self.neighbours.iter());
-        Rating { total: reference.weights.combine(history, exploration, social), history }
     }
+}
+
+/// Ratings of all particles of one target.
+#[derive(Default)]
+struct Ratings {
+    /// The fitness.
+    total: Vec<f64>,
+    /// Its history term.
+    history: Vec<f64>,
+    exploration: Vec<f64>,
+    distance: Vec<f64>,
+    position: Vec<f64>,
+    velocity: Vec<f64>,
+}
+
+impl Ratings {
+    /// Eq. 4 for all; `looks` is empty where nothing is seen.
+    fn rate(&mut self, reference: &Reference, flight: &Flight, neighbours: &[(State, State)], looks: &[Looks]) {
+        let count = flight.len();
+        for list in [&mut self.total, &mut self.history, &mut self.exploration, &mut self.distance] {
+            list.resize(count, 0.0);
+        }
+        for sums in [&mut self.position, &mut self.velocity] {
+            sums.clear();
+            sums.resize(count, 0.0);
+        }
+        let limit = reference.distance_limit;
+        flight.here.distances_to(&reference.state, &mut self.history);
+        self.history.iter_mut().for_each(|x| *x = motion(*x, limit));
+        flight.here.distances(&flight.before, &mut self.exploration);
+        self.exploration.iter_mut().for_each(|x| *x = motion(*x, limit));
+        let social = &reference.social;
+        for (state, velocity) in neighbours {
+            add_distances(&flight.here, state, social.position_limit, &mut self.distance, &mut self.position);
+            add_distances(&flight.velocity, velocity, social.velocity_limit, &mut self.distance, &mut self.velocity);
+        }
+        for index in 0..count {
+            let (with_history, with_before) =
+                looks.get(index).map_or((None, None), |l| (l.with_history, l.with_before));
+            let history = similarity(reference.lambda_s, with_history, self.history[index]);
+            let exploration = similarity(reference.lambda_s, with_before, self.exploration[index]);
+            let kept = social.fitness(self.position[index], self.velocity[index], neighbours.len());
+            self.history[index] = history;
+            self.total[index] = reference.weights.combine(history, exploration, kept);
+        }
+    }
+}
+
+/// Adds the distances to a point, up to a limit.
+fn add_distances(from: &Columns, point: &State, limit: f64, distance: &mut [f64], sums: &mut [f64]) {
+    from.distances_to(point, distance);
+    sums.iter_mut().zip(distance).for_each(|(sum, d)| *sum += if *d < limit { *d } else { limit });
 }
 
 fn reference(p: &GenTrack2Parameters, target: &Target, bound: &State, template: Option<Descriptor>) -> Reference {

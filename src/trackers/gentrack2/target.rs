@@ -107,10 +107,10 @@ pub struct Target {
     pub global_fitness: f64,
     /// Whether the swarm of this frame could compare looks.
     pub looked_at: bool,
-    /// Looks learnt from strong updates; valid if `has_looks`.
-    pub looks: Box<Looks>,
+    /// Memory for looks, from when the first image came.
+    looks: Option<Box<Looks>>,
     /// Whether its looks are known.
-    pub has_looks: bool,
+    has_looks: bool,
     /// Embedding learnt from strong updates.
     pub embedding: MeanEmbedding,
     /// Its own random numbers: they do not depend on the other targets.
@@ -144,7 +144,7 @@ impl Target {
             global_best: State::default(),
             global_fitness: 1.0,
             looked_at: false,
-            looks: Box::new(Looks::NONE),
+            looks: None,
             has_looks: false,
             embedding: MeanEmbedding::default(),
             random: Random::new(0, 0),
@@ -189,6 +189,32 @@ impl Target {
         self.looked_at = false;
         self.has_looks = false;
         self.embedding.clear();
+    }
+
+    /// What it looks like, learnt from strong updates.
+    pub fn looks(&self) -> Option<&Looks> {
+        self.looks.as_deref().filter(|_| self.has_looks)
+    }
+
+    /// Whether it is known what it looks like.
+    pub fn has_looks(&self) -> bool {
+        self.looks().is_some()
+    }
+
+    /// Learns what it looks like; `momentum` is the share of what was known.
+    pub fn learn_looks(&mut self, seen: &Looks, momentum: f64) {
+        let looks = self.looks.get_or_insert_with(|| Box::new(Looks::NONE));
+        match self.has_looks {
+            true => looks.blend(seen, momentum),
+            false => (**looks).clone_from(seen),
+        }
+        self.has_looks = true;
+    }
+
+    /// Forgets what it looks like.
+    #[cfg(test)]
+    pub fn forget_looks(&mut self) {
+        self.has_looks = false;
     }
 
     /// Puts a target at a detection where its motion did not lead: what was known of it is forgotten.

@@ -55,6 +55,8 @@ impl VelocityRegression {
         while target.history.len() >= reach.states {
             target.history.pop_front();
         }
+        // To the last one, not to the next power of two: histories are most of what a track takes.
+        target.history.reserve_exact(reach.states - target.history.len());
         target.history.push_back(Observation { time, state: target.state });
         let centre = p.slope_limit * target.state.diagonal();
         let (width, height) = (p.size_slope_limit * target.state.w, p.size_slope_limit * target.state.h);
@@ -76,8 +78,8 @@ impl VelocityRegression {
         let mut counts = [0; 4];
         for later in pairs() {
             for (from, to) in history.iter().zip(later) {
-                let (rise, run) = (to.state - from.state, to.time - from.time);
-                let slopes = [rise.u / run, rise.v / run, rise.w / run, rise.h / run];
+                let (rise, per_tick) = (to.state - from.state, 1.0 / (to.time - from.time));
+                let slopes = [rise.u * per_tick, rise.v * per_tick, rise.w * per_tick, rise.h * per_tick];
                 for i in 0..4 {
                     self.slopes[i][counts[i]] = slopes[i];
                     counts[i] += usize::from(slopes[i].abs() <= limits[i]);
