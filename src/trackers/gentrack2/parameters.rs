@@ -99,8 +99,9 @@ parameters! {
         antithetic: bool = true, [], "", "";
 
         // Swarm optimisation (eq. 4-6).
-        /// Swarm iterations per frame; 0 leaves the particles where they were drawn.
-        pso_iterations: i64 = 3, [0, 100], "iterations", "";
+        /// Swarm iterations per frame; 0 leaves the particles where they were drawn. More than one were not worth their
+        /// time on any data set.
+        pso_iterations: i64 = 1, [0, 100], "iterations", "";
         /// Share of its swarm velocity that a particle keeps.
         pso_inertia: f64 = 0.5, [0.0, 1.0], "", "";
         /// Pull towards a particle's own best.
@@ -329,6 +330,7 @@ impl GenTrack2Parameters {
             "default" => Some(defaults),
             "paper" => Some(Self {
                 prior_spread: 1.0,
+                pso_iterations: 3,
                 antithetic: false,
                 history_reference: HistoryReference::Previous,
                 hog_offset: 0.0,
