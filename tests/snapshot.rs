@@ -3,7 +3,10 @@
 
 mod simulator;
 
-use gentrack2::{Algorithm, Embeddings, Error, Frame, ImageView, PixelFormat, Tracker};
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use gentrack2::{Algorithm, Detection, Embeddings, Error, Frame, ImageView, PixelFormat, Tracker};
 use simulator::driver::{exact, tracker_of};
 use simulator::everyone::CLASS_POLICIES;
 use simulator::noise::Noise;
@@ -24,7 +27,7 @@ fn step(tracker: &mut Tracker, scene: &Scene, seen: &Observation) -> String {
         .detections
         .iter()
         .enumerate()
-        .map(|(row, d)| gentrack2::Detection { class_id: row as i32 % 2, ..*d })
+        .map(|(row, d)| Detection { class_id: row as i32 % 2, ..*d })
         .filter(|_| runs)
         .collect();
     let mut noise = Noise::new(seen.frame as u64, 0);
@@ -137,5 +140,56 @@ for_every_algorithm! {
             }
         }
         assert!(loaded > 0 && refused > 0, "{loaded} loaded, {refused} refused");
+    }
+}
+
+/// Snapshots of every format that was ever written, by algorithm: `tests/fixtures/snapshots/FORMAT/ALGORITHM`.
+fn fixtures() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/snapshots")
+}
+
+/// Frames that the fixtures' trackers have seen.
+const SEEN: usize = 20;
+
+/// What they have seen: six walkers apart from each other.
+fn walk(tracker: &mut Tracker, frames: std::ops::Range<usize>) {
+    for frame in frames {
+        let walker = |i: usize| Detection::new(50.0 + 3.0 * frame as f64, 20.0 + 150.0 * i as f64, 40.0, 100.0, 0.9);
+        let detections: Vec<Detection> = (0..6).map(walker).collect();
+        tracker.step(&Frame::new(&detections)).unwrap();
+    }
+}
+
+for_every_algorithm! {
+    fn snapshots_of_every_format_are_read(algorithm: Algorithm) {
+        let mut formats = 0;
+        for folder in std::fs::read_dir(fixtures()).unwrap() {
+            let path = folder.unwrap().path().join(algorithm.name());
+            let mut tracker = Tracker::load(&std::fs::read(&path).unwrap()).unwrap();
+            assert_eq!(tracker.algorithm(), algorithm);
+            let ids = |tracker: &Tracker| tracker.output().reported.iter().map(|t| t.id).collect::<BTreeSet<u64>>();
+            let before = ids(&tracker);
+            assert_eq!(before.len(), 6, "{}: there are {before:?}", path.display());
+            // Whatever else has changed since, whoever was there is still known.
+            walk(&mut tracker, SEEN..SEEN + 3);
+            assert_eq!(ids(&tracker), before);
+            formats += 1;
+        }
+        assert!(formats > 0);
+    }
+}
+
+/// Writes the fixtures of a new format: `cargo test --test snapshot write_fixtures -- --ignored`.
+#[test]
+#[ignore = "writes files"]
+fn write_fixtures() {
+    for algorithm in Algorithm::ALL {
+        let mut tracker = tracker_of(*algorithm, &[("seed", "7")]);
+        walk(&mut tracker, 0..SEEN);
+        let bytes = tracker.save();
+        let format = u32::from_le_bytes(bytes[8..12].try_into().unwrap());
+        let folder = fixtures().join(format.to_string());
+        std::fs::create_dir_all(&folder).unwrap();
+        std::fs::write(folder.join(algorithm.name()), bytes).unwrap();
     }
 }
