@@ -1,6 +1,7 @@
 # The short commands; everything is done by cargo and CMake.
 
 BUILD := build
+PREFIX ?= /usr/local
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 
 # Measurement data next to the checkout, if there is any; tests that need it say so when they skip.
@@ -10,10 +11,13 @@ export GENTRACK2_SHARED := $(abspath ../shared)
 endif
 endif
 
-.PHONY: help build demo test accuracy bench bench-instructions lint fmt-check clean
+.PHONY: help build install package docs demo test arm accuracy bench bench-instructions lint fmt-check clean
 
 help:
 	@echo "make build      the library and the examples, in $(BUILD)/"
+	@echo "make install    install it, PREFIX=/usr/local DESTDIR= (no tests, no examples)"
+	@echo "make package    Debian packages and a .tar.gz, in $(BUILD)/packages/"
+	@echo "make docs       the reference of the C, C++ and Rust interfaces, in $(BUILD)/docs/"
 	@echo "make demo       track OpenCV's sample video; results in out/"
 	@echo "make test       all tests: Rust, C and C++"
 	@echo "make accuracy   a table of all trackers on all set-ups of eval/README.md, if GENTRACK2_SHARED names the data;"
@@ -25,12 +29,23 @@ help:
 	@echo "make lint       formatting and clippy"
 	@echo "make clean      remove $(BUILD)/, out/ and target/"
 	@echo
-	@echo "build, demo, test, accuracy and the benchmarks install the Debian packages they need and do not find."
+	@echo "All but install and clean install the Debian packages they need and do not find."
 
 build:
 	@tools/install-needs.sh build
 	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release
 	@cmake --build $(BUILD) --parallel $(JOBS)
+
+# A configuration of its own, which needs neither OpenCV nor C++ programs; cargo's results are shared.
+install:
+	@cmake -S . -B $(BUILD)/install -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=$(PREFIX) \
+	    -DGENTRACK2_BUILD_TESTS=OFF -DGENTRACK2_BUILD_EXAMPLES=OFF $(CMAKE_OPTIONS)
+	@cmake --build $(BUILD)/install
+	DESTDIR=$(DESTDIR) cmake --install $(BUILD)/install
+
+package:
+	@tools/install-needs.sh package
+	@tools/package.sh $(BUILD)
 
 demo:
 	@tools/install-needs.sh demo

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Installs the Debian packages that a task needs and this machine lacks; does nothing where all is there.
 #
-#   usage: tools/install-needs.sh build|test|demo|bench|bench-instructions
+#   usage: tools/install-needs.sh build|test|demo|package|docs|arm|bench|bench-instructions
 set -eu
 
 say() { printf '%s\n' "$*" >&2; }
@@ -36,6 +36,18 @@ if [ "$task" = test ]; then
     has nm || need binutils
     has python3 || need python3
     python3 -c 'import ensurepip' 2>/dev/null || need python3-venv
+    has meson || need meson
+    has ninja || need ninja-build
+    has abidiff || need abigail-tools
+    has doxygen || need doxygen
+fi
+
+if [ "$task" = package ]; then
+    has dpkg-shlibdeps || need dpkg-dev
+fi
+
+if [ "$task" = docs ]; then
+    has doxygen || need doxygen
 fi
 
 if [ "$task" = demo ] || [ "$task" = bench ]; then

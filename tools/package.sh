@@ -1,0 +1,28 @@
+#!/bin/sh
+# Makes the Debian packages and the .tar.gz; run by `make package`.
+#
+#   usage: tools/package.sh BUILD-DIRECTORY
+set -eu
+
+build=$1
+
+# pack GENERATOR PREFIX : Debian's directories follow from the prefix /usr; an archive has plain lib/ and include/.
+pack() {
+    directory=$build/package-$1
+    cmake -S . -B "$directory" -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX="$2" -DGENTRACK2_BUILD_TESTS=OFF \
+        -DGENTRACK2_BUILD_EXAMPLES=OFF >"$directory.log"
+    cmake --build "$directory" >>"$directory.log" 2>&1
+    (cd "$directory" && cpack -G "$1" -B ../packages) >>"$directory.log"
+}
+
+mkdir -p "$build"
+rm -rf "$build/packages"
+for generator in DEB TGZ; do
+    if [ $generator = DEB ]; then prefix=/usr; else prefix=/usr/local; fi
+    if ! pack $generator $prefix; then
+        cat "$build/package-$generator.log" >&2
+        exit 1
+    fi
+done
+rm -rf "$build/packages/_CPack_Packages"
+ls -l "$build"/packages
