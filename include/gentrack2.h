@@ -127,7 +127,7 @@
 /// freed.
 #define GT2_ERR_POISONED -8
 
-/// This build of the library leaves the function out.
+/// This build of the library leaves out what the function needs. A library built with the defaults has everything.
 #define GT2_ERR_UNSUPPORTED -9
 
 /// A field of a detection is out of range.
@@ -534,7 +534,7 @@ gt2_status gt2_config_get_integer(const struct gt2_config *config, const char *k
 /// `preset = "name"`, which is loaded before the other keys. What is not named stays. On an error nothing changes.
 ///
 /// Errors: `GT2_ERR_NULL_POINTER`, `GT2_ERR_INVALID_TEXT`, `GT2_ERR_CONFIG_SYNTAX` (the message names the line),
-/// `GT2_ERR_UNKNOWN_ALGORITHM`, `GT2_ERR_UNKNOWN_PARAMETER`, `GT2_ERR_PARAMETER_VALUE`.
+/// `GT2_ERR_UNKNOWN_ALGORITHM`, `GT2_ERR_UNKNOWN_PARAMETER`, `GT2_ERR_PARAMETER_VALUE`, `GT2_ERR_UNSUPPORTED`.
 gt2_status gt2_config_load_toml(struct gt2_config *config,
                                 const char *text,
                                 size_t length);

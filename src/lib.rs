@@ -14,7 +14,14 @@
 //! # Ok::<(), gentrack2::Error>(())
 //! ```
 //!
-//! [`Algorithm`] lists the algorithms: GenTrack2 and the seven it is compared with. The same library has a C ABI; `include/gentrack2.h` is its manual.
+//! [`Algorithm`] lists the algorithms: GenTrack2 and the seven it is compared with. The same library has a C ABI;
+//! `include/gentrack2.h` is its manual.
+//!
+//! Every algorithm is a cargo feature of its name, and so is reading a [`Config`] from TOML (`toml`); all are on by
+//! default.
+
+// A library of a few trackers has no use for all that they could share.
+#![cfg_attr(not(feature = "default"), allow(dead_code, unused_imports, unused_macros))]
 
 pub mod appearance;
 pub mod assignment;
@@ -26,8 +33,10 @@ pub mod error;
 pub mod frame;
 pub mod geometry;
 pub mod image;
+#[cfg(feature = "_kalman")]
 pub mod kalman;
 pub mod parameters;
+#[cfg(feature = "gentrack2")]
 pub mod random;
 #[cfg(feature = "snapshot")]
 pub mod snapshot;
@@ -37,6 +46,9 @@ pub mod trackers;
 mod validation;
 
 pub mod capi;
+
+#[cfg(not(any(feature = "gentrack2", feature = "_kalman")))]
+compile_error!("a library without any tracker: enable the feature of at least one, such as gentrack2 or sort");
 
 pub use config::Config;
 pub use error::Error;

@@ -231,7 +231,7 @@ unsafe fn get<T>(
 /// `preset = "name"`, which is loaded before the other keys. What is not named stays. On an error nothing changes.
 ///
 /// Errors: `GT2_ERR_NULL_POINTER`, `GT2_ERR_INVALID_TEXT`, `GT2_ERR_CONFIG_SYNTAX` (the message names the line),
-/// `GT2_ERR_UNKNOWN_ALGORITHM`, `GT2_ERR_UNKNOWN_PARAMETER`, `GT2_ERR_PARAMETER_VALUE`.
+/// `GT2_ERR_UNKNOWN_ALGORITHM`, `GT2_ERR_UNKNOWN_PARAMETER`, `GT2_ERR_PARAMETER_VALUE`, `GT2_ERR_UNSUPPORTED`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gt2_config_load_toml(
     config: *mut gt2_config,
@@ -242,9 +242,20 @@ pub unsafe extern "C" fn gt2_config_load_toml(
     unsafe {
         guard_exclusive(config, |c| {
             let bytes = slice(text.cast::<u8>(), length, "text")?;
-            Ok(c.config.load_toml(text::utf8(bytes, "text")?)?)
+            load_toml(&mut c.config, text::utf8(bytes, "text")?)
         })
     }
+}
+
+#[cfg(feature = "toml")]
+fn load_toml(config: &mut Config, text: &str) -> Result<(), Failure> {
+    Ok(config.load_toml(text)?)
+}
+
+/// The function is there all the same: every build has the same ABI.
+#[cfg(not(feature = "toml"))]
+fn load_toml(_config: &mut Config, _text: &str) -> Result<(), Failure> {
+    Err(Failure::new(GT2_ERR_UNSUPPORTED, "text: this library was built without the feature toml"))
 }
 
 /// Copies the whole config, every parameter with its documentation, as TOML that `gt2_config_load_toml` reads back to

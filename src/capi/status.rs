@@ -29,7 +29,7 @@ pub const GT2_ERR_PANIC: i32 = -7;
 /// The handle met an internal error before. A tracker works again after `gt2_tracker_reset`; a config can only be
 /// freed.
 pub const GT2_ERR_POISONED: i32 = -8;
-/// This build of the library leaves the function out.
+/// This build of the library leaves out what the function needs. A library built with the defaults has everything.
 pub const GT2_ERR_UNSUPPORTED: i32 = -9;
 /// A field of a detection is out of range.
 pub const GT2_ERR_DETECTION: i32 = -20;

@@ -71,6 +71,7 @@ pub fn is_beyond(time: f64, frames: f64) -> bool {
 pub const SMALLEST: f64 = 1e-3;
 
 /// A filter's box as it is handed out: of a state that is no box any more, the detection last taken.
+#[cfg(feature = "_kalman")]
 pub fn presentable(state: &State, last: &Detection) -> Rect {
     if !crate::kalman::is_sane(state) {
         return last.rect;

@@ -1,18 +1,30 @@
 //! The algorithms, by name.
 
+#[cfg(feature = "botsort")]
 pub mod botsort;
+#[cfg(feature = "bytetrack")]
 pub mod bytetrack;
+#[cfg(feature = "conftrack")]
 pub mod conftrack;
+#[cfg(feature = "deepsort")]
 pub mod deepsort;
+#[cfg(feature = "gentrack2")]
 pub mod gentrack2;
 mod life;
+#[cfg(feature = "ocsort")]
 pub mod ocsort;
+#[cfg(feature = "_kalman")]
 mod overlaps;
+#[cfg(feature = "_kalman")]
 mod pairing;
 mod separate_classes;
+#[cfg(feature = "smiletrack")]
 pub mod smiletrack;
+#[cfg(feature = "sort")]
 pub mod sort;
+#[cfg(feature = "_kalman")]
 mod sort_family;
+#[cfg(feature = "_kalman")]
 mod two_round;
 
 use crate::classes::ClassPolicy;
@@ -47,30 +59,30 @@ pub trait TrackingAlgorithm: Send {
     }
 }
 
-/// Declares the registry: per algorithm its name, parameters and the function that builds it.
+/// Declares the registry: per algorithm its name, which is also that of its cargo feature, and its parameters.
 macro_rules! algorithms {
     ($($(#[doc = $doc:literal])+ $variant:ident = $name:literal, $parameters:ty;)+) => {
         /// The algorithms that exist.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-        pub enum Algorithm { $($(#[doc = $doc])+ $variant),+ }
+        pub enum Algorithm { $($(#[doc = $doc])+ #[cfg(feature = $name)] $variant),+ }
 
         impl Algorithm {
             /// All of them.
-            pub const ALL: &'static [Algorithm] = &[$(Algorithm::$variant),+];
+            pub const ALL: &'static [Algorithm] = &[$(#[cfg(feature = $name)] Algorithm::$variant),+];
 
             /// The name by which it is chosen.
             pub const fn name(self) -> &'static str {
-                match self { $(Algorithm::$variant => $name),+ }
+                match self { $(#[cfg(feature = $name)] Algorithm::$variant => $name),+ }
             }
 
             /// What it is, in a line.
             pub fn description(self) -> &'static str {
-                match self { $(Algorithm::$variant => concat!($($doc),+).trim()),+ }
+                match self { $(#[cfg(feature = $name)] Algorithm::$variant => concat!($($doc),+).trim()),+ }
             }
 
             /// Names of its parameter presets, the default first.
             pub fn presets(self) -> &'static [&'static str] {
-                match self { $(Algorithm::$variant => <$parameters>::PRESETS),+ }
+                match self { $(#[cfg(feature = $name)] Algorithm::$variant => <$parameters>::PRESETS),+ }
             }
         }
 
@@ -78,32 +90,36 @@ macro_rules! algorithms {
         // There are few of them, and they are not copied about.
         #[allow(clippy::large_enum_variant)]
         #[derive(Clone, Debug, PartialEq)]
-        pub enum AlgorithmParameters { $($(#[doc = $doc])+ $variant($parameters)),+ }
+        pub enum AlgorithmParameters { $($(#[doc = $doc])+ #[cfg(feature = $name)] $variant($parameters)),+ }
 
         impl AlgorithmParameters {
             /// The defaults.
             pub fn defaults(algorithm: Algorithm) -> Self {
-                match algorithm { $(Algorithm::$variant => Self::$variant(Default::default())),+ }
+                match algorithm {
+                    $(#[cfg(feature = $name)] Algorithm::$variant => Self::$variant(Default::default())),+
+                }
             }
 
             /// A named set of values.
             pub fn preset(algorithm: Algorithm, name: &str) -> Option<Self> {
-                match algorithm { $(Algorithm::$variant => <$parameters>::preset(name).map(Self::$variant)),+ }
+                match algorithm {
+                    $(#[cfg(feature = $name)] Algorithm::$variant => <$parameters>::preset(name).map(Self::$variant)),+
+                }
             }
 
             /// As a table.
             pub fn as_set(&self) -> &dyn ParameterSet {
-                match self { $(Self::$variant(p) => p),+ }
+                match self { $(#[cfg(feature = $name)] Self::$variant(p) => p),+ }
             }
 
             /// As a table to change.
             pub fn as_set_mut(&mut self) -> &mut dyn ParameterSet {
-                match self { $(Self::$variant(p) => p),+ }
+                match self { $(#[cfg(feature = $name)] Self::$variant(p) => p),+ }
             }
 
             /// A tracker with these parameters; refuses combinations that make no sense.
             pub fn build(&self) -> Result<Box<dyn TrackingAlgorithm>, Error> {
-                match self { $(Self::$variant(p) => p.build()),+ }
+                match self { $(#[cfg(feature = $name)] Self::$variant(p) => p.build()),+ }
             }
         }
     };

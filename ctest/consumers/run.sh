@@ -1,0 +1,97 @@
+#!/bin/sh
+# Builds a project of its own against an installed tree and runs it; what it prints is the result.
+#
+#   usage: run.sh install BUILD WORK          installs to WORK/prefix, by way of another place
+#          run.sh CONSUMER BUILD WORK         builds and runs that folder's project
+# CC, CXX: the compilers. VERSION: that of the library. BUILD: CMake's build directory of the library.
+set -eu
+
+consumer=$1
+build=$2
+work=$3
+here=$(cd "$(dirname "$0")" && pwd)
+root=$(cd "$here/../.." && pwd)
+prefix=$work/prefix
+
+# quiet COMMAND... : shows the output only of a failure.
+quiet() {
+    log=$work/$consumer.log
+    if ! "$@" >"$log" 2>&1; then
+        cat "$log" >&2
+        echo "failed: $*" >&2
+        exit 1
+    fi
+}
+
+if [ "$consumer" = install ]; then
+    rm -rf "$work"
+    mkdir -p "$work"
+    # A tree that is moved after the installation must serve all the same.
+    quiet cmake --install "$build" --prefix "$work/elsewhere"
+    mv "$work/elsewhere" "$prefix"
+    (cd "$prefix" && find . ! -type d | sort)
+    exit 0
+fi
+
+pc=$(find "$prefix" -name gentrack2.pc)
+libraries=$(dirname "$(dirname "$pc")")
+PKG_CONFIG_PATH=$(dirname "$pc")
+export PKG_CONFIG_PATH PREFIX="$prefix" CC CXX
+own=$work/$consumer
+rm -rf "$own"
+if [ -d "$here/$consumer" ]; then cp -r "$here/$consumer" "$own"; fi
+
+# with_library COMMAND... : runs a program that is to find the shared library in the installed tree.
+with_library() { LD_LIBRARY_PATH="$libraries" "$@"; }
+
+configure() { quiet cmake -S "$own" -B "$own/build" -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX" "$@"; }
+
+case $consumer in
+c99_pkgconfig)
+    quiet make -C "$own"
+    with_library "$own/two_walkers"
+    ;;
+c11_static)
+    quiet make -C "$own"
+    for program in every_tracker fully_static from_pc; do "$own/$program"; done
+    ;;
+cxx17_find_package)
+    configure -DCMAKE_PREFIX_PATH="$prefix" -DVERSION="$VERSION"
+    quiet cmake --build "$own/build"
+    for kind in gentrack2 static; do "$own/build/wrapper_$kind"; done
+    ;;
+cxx_subdirectory)
+    configure -DGENTRACK2_SOURCE="$root"
+    quiet cmake --build "$own/build"
+    for program in boxes boxes_static; do "$own/build/$program"; done
+    ;;
+minimal_features)
+    # From the crate as it would be published, which is an archive like any other.
+    quiet cargo package --manifest-path "$root/Cargo.toml" --offline --allow-dirty --no-verify --target-dir "$own/crate"
+    mv "$own/crate/package/gentrack2-$VERSION.crate" "$own/gentrack2.tar.gz"
+    configure -DARCHIVE="$own/gentrack2.tar.gz"
+    quiet cmake --build "$own/build"
+    for kind in shared static; do "$own/build/only_sort_$kind"; done
+    ;;
+meson)
+    quiet meson setup "$own/build" "$own"
+    with_library meson test -C "$own/build" --verbose >"$work/meson.log" 2>&1 || { cat "$work/meson.log"; exit 1; }
+    grep 'from Meson' "$work/meson.log"
+    ;;
+plugin_host)
+    quiet make -C "$own"
+    "$own/plugin_host" "$libraries/libgentrack2.so.0"
+    ;;
+python)
+    python3 "$root/examples_python/track.py" "$libraries/libgentrack2.so.0" >"$work/python.log" 2>&1 ||
+        { cat "$work/python.log"; exit 1; }
+    tail -n 2 "$work/python.log"
+    # Both are followed from the second frame on, with their numbers.
+    [ "$(grep -c 'track 1 .*detection 0' "$work/python.log")" -ge 38 ]
+    [ "$(grep -c 'track 2 .*detection 1' "$work/python.log")" -ge 38 ]
+    ;;
+*)
+    echo "no such consumer: $consumer" >&2
+    exit 2
+    ;;
+esac
