@@ -47,6 +47,10 @@ package:
 	@tools/install-needs.sh package
 	@tools/package.sh $(BUILD)
 
+docs:
+	@tools/install-needs.sh docs
+	@tools/docs.sh $(BUILD)/docs
+
 demo:
 	@tools/install-needs.sh demo
 	@$(MAKE) --no-print-directory build

@@ -5,6 +5,8 @@
 
 // The header is the manual of these functions: what a caller must guarantee is said there once for all of them.
 #![allow(unsafe_code, non_camel_case_types, clippy::missing_safety_doc)]
+// In C's documentation brackets are indices.
+#![allow(rustdoc::broken_intra_doc_links)]
 
 mod algorithm;
 mod config;

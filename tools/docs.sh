@@ -1,0 +1,41 @@
+#!/bin/sh
+# Writes the references of the C and C++ interface and of the Rust one side by side; run by `make docs`.
+#
+#   usage: tools/docs.sh DIRECTORY       writes DIRECTORY/index.html, DIRECTORY/c/ and DIRECTORY/rust/
+#          tools/docs.sh --check         only sees that nothing of the C interface lacks documentation or is wrong in it
+set -eu
+cd "$(dirname "$0")/.."
+
+# doxygen_with SETTING... : the settings override those of the file.
+doxygen_with() { (cat docs/Doxyfile && printf '%s\n' "$@") | doxygen -; }
+
+scratch=$(mktemp -d "${TMPDIR:-/tmp}/gentrack2-docs.XXXXXX")
+trap 'rm -rf "$scratch"' EXIT
+doxygen_with "OUTPUT_DIRECTORY = $scratch" "INPUT = include/gentrack2.h" "WARN_IF_UNDOCUMENTED = YES" "GENERATE_HTML = NO" \
+    "GENERATE_XML = YES"
+functions=$(grep -c '<memberdef kind="function"' "$scratch"/xml/gentrack2_8h.xml)
+echo "C interface: $functions functions documented, no warnings"
+[ "$1" != --check ] || exit 0
+
+out=$1
+rm -rf "$out"
+mkdir -p "$out"
+doxygen_with "OUTPUT_DIRECTORY = $out/c"
+RUSTDOCFLAGS="-D warnings" cargo doc --quiet --lib --no-deps --locked
+cp -r target/doc "$out/rust"
+cp docs/parameters.md "$out"
+cat >"$out/index.html" <<HTML
+<!DOCTYPE html>
+<html lang="en">
+<meta charset="utf-8">
+<title>gentrack2</title>
+<h1>gentrack2</h1>
+<ul>
+<li><a href="c/gentrack2_8h.html">C: gentrack2.h</a></li>
+<li><a href="c/namespacegentrack2.html">C++: gentrack2.hpp and its companions</a></li>
+<li><a href="rust/gentrack2/index.html">Rust: the crate</a></li>
+<li><a href="parameters.md">Parameters of all trackers</a></li>
+</ul>
+</html>
+HTML
+echo "$out/index.html"
