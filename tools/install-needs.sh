@@ -64,6 +64,15 @@ if [ "$task" = bench-instructions ]; then
     has valgrind || need valgrind
 fi
 
+if [ "$task" = arm ]; then
+    has aarch64-linux-gnu-gcc || need gcc-aarch64-linux-gnu libc6-dev-arm64-cross
+    has aarch64-linux-gnu-g++ || need g++-aarch64-linux-gnu
+    has qemu-aarch64 || need qemu-user
+    # A Rust that can compile for ARM by itself needs no other.
+    [ -n "$(find "$(rustc --print target-libdir --target aarch64-unknown-linux-gnu)" -name 'libstd-*' 2>/dev/null)" ] ||
+        [ -x /usr/bin/rustc ] || need rustc-web
+fi
+
 [ -n "$missing" ] || exit 0
 
 if ! has apt-get; then
