@@ -42,7 +42,7 @@ if [ "$task" = test ]; then
     has doxygen || need doxygen
 fi
 
-if [ "$task" = package ]; then
+if [ "$task" = package ] || [ "$task" = test ]; then
     has dpkg-shlibdeps || need dpkg-dev
 fi
 

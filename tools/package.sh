@@ -4,7 +4,9 @@
 #   usage: tools/package.sh BUILD-DIRECTORY
 set -eu
 
-build=$1
+mkdir -p "$1"
+build=$(cd "$1" && pwd)
+cd "$(dirname "$0")/.."
 
 # pack GENERATOR PREFIX : Debian's directories follow from the prefix /usr; an archive has plain lib/ and include/.
 pack() {
@@ -15,7 +17,6 @@ pack() {
     (cd "$directory" && cpack -G "$1" -B ../packages) >>"$directory.log"
 }
 
-mkdir -p "$build"
 rm -rf "$build/packages"
 for generator in DEB TGZ; do
     if [ $generator = DEB ]; then prefix=/usr; else prefix=/usr/local; fi

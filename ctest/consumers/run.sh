@@ -82,6 +82,21 @@ plugin_host)
     quiet make -C "$own"
     "$own/plugin_host" "$libraries/libgentrack2.so.0"
     ;;
+packages)
+    quiet "$root/tools/package.sh" "$own"
+    mkdir -p "$own/debian" "$own/archive"
+    for deb in "$own"/packages/*.deb; do dpkg-deb -x "$deb" "$own/debian"; done
+    tar xzf "$own"/packages/*.tar.gz -C "$own/archive" --strip-components 1
+    dpkg-deb -f "$own"/packages/libgentrack2-0_*.deb Package Depends
+    dpkg-deb -f "$own"/packages/libgentrack2-dev_*.deb Package Depends | tee "$own/fields"
+    grep -q "^Depends: libgentrack2-0 (= $VERSION)$" "$own/fields"
+    for tree in debian archive; do
+        pc=$(find "$own/$tree" -name gentrack2.pc)
+        cp -r "$here/c99_pkgconfig" "$own/$tree/program"
+        PKG_CONFIG_PATH=$(dirname "$pc") quiet make -C "$own/$tree/program"
+        LD_LIBRARY_PATH=$(dirname "$(dirname "$pc")") "$own/$tree/program/two_walkers"
+    done
+    ;;
 python)
     python3 "$root/examples_python/track.py" "$libraries/libgentrack2.so.0" >"$work/python.log" 2>&1 ||
         { cat "$work/python.log"; exit 1; }
