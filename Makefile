@@ -20,7 +20,7 @@ help:
 	@echo "make docs       the reference of the C, C++ and Rust interfaces, in $(BUILD)/docs/"
 	@echo "make demo       track OpenCV's sample video; results in out/"
 	@echo "make test       all tests: Rust, C and C++"
-	@echo "make arm        the library for 64-bit ARM, and its tests under qemu; ARM=armv7 for 32 bits"
+	@echo "make arm        the library for 64-bit ARM, and its tests under qemu"
 	@echo "make accuracy   a table of all trackers on all set-ups of eval/README.md, if GENTRACK2_SHARED names the data;"
 	@echo "                ACCURACY='--entries gentrack2 --setups H,P' and the like are options of eval/evaluate.py"
 	@echo "make bench      speed and memory beside other crates' trackers and OpenCV, in about ten minutes: out/bench.md;"
@@ -63,11 +63,10 @@ test:
 	cargo test
 	ctest --test-dir $(BUILD) --output-on-failure
 
-ARM ?= aarch64
 arm:
 	@tools/install-needs.sh arm
 	@$(MAKE) --no-print-directory build
-	@tools/arm.sh $(BUILD) $(ARM)
+	@tools/arm.sh $(BUILD) aarch64
 
 accuracy:
 	@tools/install-needs.sh test

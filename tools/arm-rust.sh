@@ -3,12 +3,11 @@
 # cannot, Debian's compiler and Debian's standard library for that machine are taken, which must be of one version; the
 # library is unpacked, not installed, and the machine's list of architectures stays as it is.
 #
-#   usage: tools/arm-rust.sh aarch64|armv7 DIRECTORY-FOR-FILES
+#   usage: tools/arm-rust.sh aarch64 DIRECTORY-FOR-FILES
 set -eu
 
 case $1 in
 aarch64) target=aarch64-unknown-linux-gnu debian=arm64 prefix=aarch64-linux-gnu ;;
-armv7) target=armv7-unknown-linux-gnueabihf debian=armhf prefix=arm-linux-gnueabihf ;;
 *) echo "no such machine: $1" >&2 && exit 2 ;;
 esac
 files=$2

@@ -2,7 +2,7 @@
 # Prints a table of the library's size with several sets of cargo features, for docs/embedded.md: the stripped shared
 # library, and a stripped program that follows one object with every tracker there is, linked with the static one.
 #
-#   usage: tools/sizes.sh DIRECTORY-FOR-FILES [aarch64|armv7]
+#   usage: tools/sizes.sh DIRECTORY-FOR-FILES [aarch64]
 set -eu
 cd "$(dirname "$0")/.."
 
@@ -14,7 +14,7 @@ out=$files/target
 if [ -n "$machine" ]; then
     environment=$(tools/arm-rust.sh "$machine" "$files/rust")
     eval "$(echo "$environment" | sed 's/^/export /')"
-    if [ "$machine" = aarch64 ]; then prefix=aarch64-linux-gnu-; else prefix=arm-linux-gnueabihf-; fi
+    prefix=$machine-linux-gnu-
     out=$out/$CARGO_BUILD_TARGET
 fi
 
@@ -34,6 +34,7 @@ echo "| profile | features | shared library | static program |"
 echo "|---|---|---|---|"
 row release
 row embedded
+row embedded gentrack2,sort,deepsort,bytetrack,ocsort,botsort,smiletrack,conftrack
 row embedded gentrack2
 row embedded bytetrack
 row embedded sort
