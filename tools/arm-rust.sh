@@ -21,7 +21,10 @@ has_std() { [ -n "$(find "$1" -name 'libstd-*.rlib' 2>/dev/null)" ]; }
 
 if has_std "$(rustc --print target-libdir --target "$target")"; then exit 0; fi
 
-version=$(dpkg-query -W -f '${Version}' rustc-web)
+installed() { dpkg-query -W -f '${Version}' rustc-web; }
+as_root() { if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi; }
+
+version=$(installed)
 system=$(/usr/bin/rustc --print sysroot)/lib/rustlib
 host=$(/usr/bin/rustc --version --verbose | sed -n 's/^host: //p')
 sysroot=$files/rust-$version
@@ -31,8 +34,16 @@ if ! has_std "$sysroot/lib/rustlib/$target" && ! has_std "$system/$target"; then
     # Lists of our own, for an architecture that need not be the machine's business.
     apt="apt-get -qq -o Dir::State::lists=$files/apt -o Dir::Cache=$files/cache -o APT::Architectures::=$(dpkg --print-architecture)
         -o APT::Architectures::=$debian -o Acquire::Languages=none -o APT::Sandbox::User=$(id -un)"
+    fetch() { (cd "$files" && $apt download "libstd-rust-web-dev:$debian=$version") >&2; }
     $apt update >&2
-    (cd "$files" && $apt download "libstd-rust-web-dev:$debian=$version") >&2
+    if ! fetch; then
+        # Debian has moved on since the compiler was installed.
+        as_root apt-get -qq update >&2
+        as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends rustc-web >&2
+        version=$(installed)
+        sysroot=$files/rust-$version
+        fetch
+    fi
     rm -rf "$files/unpacked"
     dpkg-deb -x "$files"/libstd-rust-web-dev_*_"$debian".deb "$files/unpacked"
     mkdir -p "$sysroot/lib/rustlib"
