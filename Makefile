@@ -11,7 +11,7 @@ export GENTRACK2_SHARED := $(abspath ../shared)
 endif
 endif
 
-.PHONY: help build install package docs demo test arm accuracy bench bench-instructions lint fmt-check clean
+.PHONY: help build install package docs demo test arm accuracy bench bench-instructions fuzz lint fmt-check clean
 
 help:
 	@echo "make build      the library and the examples, in $(BUILD)/"
@@ -27,6 +27,7 @@ help:
 	@echo "                MOT17 is among it if GENTRACK2_SHARED names the data"
 	@echo "make bench-instructions"
 	@echo "                instructions per step against benches/instructions/baseline.txt; UPDATE=1 writes that file"
+	@echo "make fuzz       the fuzzers of fuzz/, SECONDS=600 each"
 	@echo "make lint       formatting and clippy"
 	@echo "make clean      remove $(BUILD)/, out/ and target/"
 	@echo
@@ -81,6 +82,14 @@ bench:
 bench-instructions:
 	@tools/install-needs.sh bench-instructions
 	@cd benches && cargo run --quiet --release --locked --package instructions -- $(if $(UPDATE),--update)
+
+SECONDS ?= 600
+
+fuzz:
+	cd fuzz && for target in c_abi toml snapshot; do \
+	    mkdir -p corpus/$$target && \
+	    cargo +nightly fuzz run $$target corpus/$$target seeds/$$target -- -max_total_time=$(SECONDS) || exit 1; \
+	done
 
 lint: fmt-check
 	cargo clippy --all-targets -- -D warnings
