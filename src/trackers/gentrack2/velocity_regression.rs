@@ -139,18 +139,28 @@ const MOST_STEPS: usize = 4;
 /// The median as by [`median`], sought from a guess: the values on either side of it are counted, and if the middle is
 /// not there, it goes on to the next value.
 fn median_near(values: &[f64], guess: f64, keys: &mut Vec<OrderKey>) -> f64 {
+    if values.is_empty() {
+        return 0.0;
+    }
     let (upper, even) = (values.len() / 2, values.len().is_multiple_of(2));
     // A guess of -0 would pass for a slope of 0.
     let mut at = guess + 0.0;
     for _ in 0..MOST_STEPS {
-        let sides = Sides::of(values, at);
-        let not_more = values.len() - sides.more;
-        if upper < sides.less {
-            at = sides.below;
-        } else if upper >= not_more {
-            at = sides.above;
-        } else if even && upper == sides.less {
-            return 0.5 * (sides.below + at);
+        let (less, not_more) = ranks(values, at);
+        if upper < less {
+            at = below(values, at);
+        } else if upper > not_more {
+            at = above(values, at);
+        } else if upper == not_more {
+            // The next value has this rank; the one before it may be here, or further down.
+            let next = above(values, at);
+            return match even {
+                false => next,
+                true if less < not_more => 0.5 * (at + next),
+                true => 0.5 * (below(values, at) + next),
+            };
+        } else if even && upper == less {
+            return 0.5 * (below(values, at) + at);
         } else {
             return at;
         }
@@ -160,39 +170,45 @@ fn median_near(values: &[f64], guess: f64, keys: &mut Vec<OrderKey>) -> f64 {
     median(keys)
 }
 
-/// How many values are less and more than one, and the nearest of these.
-struct Sides {
-    less: usize,
-    more: usize,
-    below: f64,
-    above: f64,
-}
+/// Loops in lanes are what a compiler vectorises.
+const LANES: usize = 4;
 
-impl Sides {
-    /// In lanes, so that the loop vectorises.
-    fn of(values: &[f64], at: f64) -> Self {
-        const LANES: usize = 4;
-        let (mut less, mut more) = ([0u64; LANES], [0u64; LANES]);
-        let (mut below, mut above) = ([f64::NEG_INFINITY; LANES], [f64::INFINITY; LANES]);
-        let (chunks, rest) = values.as_chunks::<LANES>();
-        let mut take = |lane: usize, x: f64| {
-            less[lane] += u64::from(x < at);
-            more[lane] += u64::from(x > at);
-            let (low, high) = (if x < at { x } else { f64::NEG_INFINITY }, if x > at { x } else { f64::INFINITY });
-            below[lane] = if low > below[lane] { low } else { below[lane] };
-            above[lane] = if high < above[lane] { high } else { above[lane] };
-        };
-        for chunk in chunks {
-            chunk.iter().enumerate().for_each(|(lane, x)| take(lane, *x));
-        }
-        rest.iter().for_each(|x| take(0, *x));
-        Self {
-            less: less.iter().sum::<u64>() as usize,
-            more: more.iter().sum::<u64>() as usize,
-            below: below.into_iter().fold(f64::NEG_INFINITY, f64::max),
-            above: above.into_iter().fold(f64::INFINITY, f64::min),
+/// How many values are less than one, and how many are not more.
+fn ranks(values: &[f64], at: f64) -> (usize, usize) {
+    let (mut less, mut not_more) = ([0u64; LANES], [0u64; LANES]);
+    let (chunks, rest) = values.as_chunks::<LANES>();
+    for chunk in chunks {
+        for lane in 0..LANES {
+            less[lane] += u64::from(chunk[lane] < at);
+            not_more[lane] += u64::from(chunk[lane] <= at);
         }
     }
+    for x in rest {
+        less[0] += u64::from(*x < at);
+        not_more[0] += u64::from(*x <= at);
+    }
+    (less.iter().sum::<u64>() as usize, not_more.iter().sum::<u64>() as usize)
+}
+
+/// The largest value that is less.
+fn below(values: &[f64], at: f64) -> f64 {
+    nearest(values, f64::NEG_INFINITY, |best, x| if x < at && x > best { x } else { best })
+}
+
+/// The smallest value that is more.
+fn above(values: &[f64], at: f64) -> f64 {
+    nearest(values, f64::INFINITY, |best, x| if x > at && x < best { x } else { best })
+}
+
+fn nearest(values: &[f64], none: f64, better: impl Fn(f64, f64) -> f64) -> f64 {
+    let mut best = [none; LANES];
+    let (chunks, rest) = values.as_chunks::<LANES>();
+    for chunk in chunks {
+        for lane in 0..LANES {
+            best[lane] = better(best[lane], chunk[lane]);
+        }
+    }
+    rest.iter().chain(&best).fold(none, |best, x| better(best, *x))
 }
 
 /// The median, the mean of the middle two for an even number, 0 for none. Reorders the values.
