@@ -68,7 +68,9 @@ impl Assignment {
         debug_assert!(edges.is_sorted_by_key(|e| e.row));
         self.prepare(rows, columns, edges);
         for row in 0..rows as u32 {
-            self.augment(row, edges, limit);
+            if !self.augment_at_once(row, edges, limit) {
+                self.augment(row, edges, limit);
+            }
         }
         &self.column_of_row
     }
@@ -104,6 +106,33 @@ impl Assignment {
         for row in 0..rows {
             self.first_edge[row + 1] += self.first_edge[row];
         }
+    }
+
+    /// Does what `augment` does where it would not get farther than the row's nearest column: that is free, or so far
+    /// that the row is left out. So it is with most rows, and nothing has to be set up for it.
+    fn augment_at_once(&mut self, source: u32, edges: &[Edge], limit: f64) -> bool {
+        let row = source as usize;
+        let mut nearest = Candidate { distance: f64::INFINITY, column: UNMATCHED };
+        for edge in &edges[self.first_edge[row] as usize..self.first_edge[row + 1] as usize] {
+            // A cost of -0 ranks as 0, as it does in `relax`.
+            let distance = 0.0 + edge.cost - self.column_potential[edge.column as usize];
+            let candidate = Candidate { distance, column: edge.column };
+            if edge.cost <= limit && candidate < nearest {
+                nearest = candidate;
+            }
+        }
+        if nearest.distance < limit {
+            let column = nearest.column as usize;
+            if self.row_of_column[column] != UNMATCHED {
+                return false;
+            }
+            self.row_of_column[column] = source;
+            self.column_of_row[row] = nearest.column;
+            self.row_potential[row] = nearest.distance;
+        } else {
+            self.row_potential[row] = limit;
+        }
+        true
     }
 
     /// Brings one more row into the solution along the shortest augmenting path. The path ends in a free column, or

@@ -107,9 +107,9 @@ pub fn entries(algorithm: Algorithm) -> Vec<Entry> {
                 universal,
                 |t, input, _| t.predict(&input),
             ),
-            // Not SORT, but the same parts: a Kalman filter and IoU.
+            // Made of the same parts, a Kalman filter and IoU, but matched greedily.
             entry(
-                "norfair-rs",
+                "norfair-rs (not SORT)",
                 || Norfair::new(TrackerConfig::from_distance_name("iou", 0.7)).expect("a valid configuration"),
                 points,
                 |t, input, _| t.update(input, 1, None).len(),

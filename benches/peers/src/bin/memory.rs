@@ -5,7 +5,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicI64, Ordering};
 
 use gentrack2::{Algorithm, Config, Detection, Frame, Tracker};
-use scenes::{Canvas, Crowd, Video, tracker};
+use scenes::{Canvas, Crowd, Video};
 
 static LIVE: AtomicI64 = AtomicI64::new(0);
 
@@ -29,26 +29,38 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// Live bytes of a tracker, and its live tracks, after it has seen so many people stand still: tracks, with all that they
-/// remember, and buffers as large as the frame.
-fn bytes(algorithm: Algorithm, people: usize) -> (f64, f64) {
-    // Side by side, so that none overlaps another: only tracks differ.
-    let at = |i: usize| Detection::new(60.0 * (i % 100) as f64, 130.0 * (i / 100) as f64, 40.0, 100.0, 0.9);
-    let detections: Vec<Detection> = (0..people).map(at).collect();
+/// People in a frame.
+const PEOPLE: usize = 1024;
+
+/// Live bytes of a tracker, and its live tracks, after it has seen so many groups of people stand still, one after the
+/// other: the more groups, the more tracks, while frames are of one size.
+fn bytes(algorithm: Algorithm, groups: usize) -> (f64, f64) {
     let before = LIVE.load(Ordering::Relaxed);
-    let mut tracker = tracker(algorithm);
-    let mut live = 0;
-    for _ in 0..100 {
-        let output = tracker.step(&Frame::new(&detections)).expect("a valid frame");
-        live = output.reported.len() + output.tentative.len() + output.lost.len();
+    let mut config = Config::of(algorithm);
+    // Whoever was seen is remembered; every algorithm has one of these.
+    for key in ["max_age", "track_buffer", "max_missed"] {
+        let _ = config.set_text(key, "10000");
     }
+    let mut tracker = Tracker::new(&config).expect("a long memory is fine");
+    let mut live = 0;
+    for group in 0..groups {
+        // Side by side, so that none overlaps another: only tracks differ.
+        let left = |i: usize| 60.0 * (i % 64) as f64 + 4000.0 * group as f64;
+        let at = |i: usize| Detection::new(left(i), 130.0 * (i / 64) as f64, 40.0, 100.0, 0.9);
+        let detections: Vec<Detection> = (0..PEOPLE).map(at).collect();
+        for _ in 0..60 {
+            let output = tracker.step(&Frame::new(&detections)).expect("a valid frame");
+            live = output.reported.len() + output.tentative.len() + output.lost.len();
+        }
+    }
+    assert_eq!(live, groups * PEOPLE, "{}: somebody was forgotten", algorithm.name());
     ((LIVE.load(Ordering::Relaxed) - before) as f64, live as f64)
 }
 
-/// Bytes that one more track costs, buffers for its detection included.
+/// Bytes that one more live track costs.
 fn bytes_per_track(algorithm: Algorithm) -> f64 {
-    // Buffers grow by doubling: counted where they have just been filled, at powers of two.
-    let ((few, few_tracks), (many, many_tracks)) = (bytes(algorithm, 1024), bytes(algorithm, 2048));
+    // Lists of tracks grow by doubling: counted where they have just been filled, at powers of two.
+    let ((few, few_tracks), (many, many_tracks)) = (bytes(algorithm, 1), bytes(algorithm, 4));
     (many - few) / (many_tracks - few_tracks)
 }
 
