@@ -40,6 +40,37 @@ pub(super) fn start<T>(list: &[T]) -> *const T {
     if list.is_empty() { std::ptr::null() } else { list.as_ptr() }
 }
 
+/// Copies bytes into a caller's buffer, or nothing if it is too small. Asking with no buffer tells the size alone.
+///
+/// # Safety
+/// `buffer` is NULL or has `capacity` bytes; `needed` is NULL or can be written.
+pub(super) unsafe fn copy_bytes(
+    bytes: &[u8],
+    buffer: *mut u8,
+    capacity: usize,
+    needed: *mut usize,
+) -> Result<(), Failure> {
+    if capacity > 0 {
+        require(buffer, "buffer")?;
+    } else {
+        require(needed, "needed (with capacity 0)")?;
+    }
+    if !needed.is_null() {
+        // SAFETY: the caller's promise.
+        unsafe { store(needed, bytes.len()) };
+    }
+    if capacity == 0 {
+        return Ok(());
+    }
+    if capacity < bytes.len() {
+        let reason = format!("capacity: is {capacity}, {} bytes are needed", bytes.len());
+        return Err(Failure::new(GT2_ERR_BUFFER_TOO_SMALL, reason));
+    }
+    // SAFETY: the buffer has at least as many bytes.
+    unsafe { bytes.as_ptr().copy_to_nonoverlapping(buffer, bytes.len()) };
+    Ok(())
+}
+
 /// Stores a result.
 ///
 /// # Safety

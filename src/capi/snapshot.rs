@@ -2,7 +2,7 @@
 
 use super::guard::{guard, guard_shared};
 use super::handle::give;
-use super::pointer::{require, slice, store};
+use super::pointer::{copy_bytes, require, slice, store};
 use super::status::*;
 use super::tracker::gt2_tracker;
 #[cfg(feature = "snapshot")]
@@ -25,28 +25,7 @@ pub unsafe extern "C" fn gt2_tracker_save(
     needed: *mut usize,
 ) -> gt2_status {
     // SAFETY: a handle, a buffer and an output by the contract of the header.
-    unsafe {
-        guard_shared(tracker, |t| {
-            if capacity == 0 {
-                require(needed, "needed (with capacity 0)")?;
-            } else {
-                require(buffer, "buffer")?;
-            }
-            let bytes = save(t)?;
-            if !needed.is_null() {
-                store(needed, bytes.len());
-            }
-            if capacity == 0 {
-                return Ok(());
-            }
-            if bytes.len() > capacity {
-                let reason = format!("capacity: is {capacity}, {} bytes are needed", bytes.len());
-                return Err(Failure::new(GT2_ERR_BUFFER_TOO_SMALL, reason));
-            }
-            bytes.as_ptr().copy_to_nonoverlapping(buffer, bytes.len());
-            Ok(())
-        })
-    }
+    unsafe { guard_shared(tracker, |t| copy_bytes(&save(t)?, buffer, capacity, needed)) }
 }
 
 /// Makes a tracker of the `size` bytes of a snapshot and stores it in `*out`; release it with `gt2_tracker_free`. Its

@@ -2,7 +2,7 @@
 
 use std::ffi::{CStr, CString, c_char};
 
-use super::pointer::{require, store};
+use super::pointer::{copy_bytes, require};
 use super::status::*;
 
 /// A caller's NUL-terminated text.
@@ -32,29 +32,8 @@ pub(super) unsafe fn copy_out(
     capacity: usize,
     needed: *mut usize,
 ) -> Result<(), Failure> {
-    if capacity > 0 {
-        require(buffer, "buffer")?;
-    } else {
-        require(needed, "needed (with capacity 0)")?;
-    }
-    let size = text.len() + 1;
-    if !needed.is_null() {
-        // SAFETY: the caller's promise.
-        unsafe { store(needed, size) };
-    }
-    if capacity == 0 {
-        return Ok(());
-    }
-    if capacity < size {
-        let reason = format!("capacity: is {capacity}, {size} bytes are needed");
-        return Err(Failure::new(GT2_ERR_BUFFER_TOO_SMALL, reason));
-    }
-    // SAFETY: the buffer has at least `size` bytes.
-    unsafe {
-        text.as_ptr().cast::<c_char>().copy_to_nonoverlapping(buffer, text.len());
-        buffer.add(text.len()).write(0);
-    }
-    Ok(())
+    // SAFETY: passed on to the caller.
+    unsafe { copy_bytes(c_string(text).as_bytes_with_nul(), buffer.cast(), capacity, needed) }
 }
 
 /// A text of ours as a C string.
