@@ -1,9 +1,8 @@
 /*
  * A GStreamer pipeline in C whose frames are tracked where they lie, with the stream's own timestamps: any file or URL
- * that GStreamer plays. The detector is a stand-in that finds the brightest patch of the image.
+ * that GStreamer plays. Detections come from a MOTChallenge file, tracks go as MOTChallenge rows to stdout.
  *
- *   gst-launch-1.0 videotestsrc pattern=ball num-buffers=150 ! jpegenc ! avimux ! filesink location=ball.avi
- *   gstreamer_appsink ball.avi
+ *   gstreamer_appsink walk.mp4 walk-det.txt > walk.txt
  *
  *   cc gstreamer_appsink.c $(pkg-config --cflags --libs gstreamer-app-1.0 gstreamer-video-1.0) -lgentrack2
  */
@@ -15,36 +14,43 @@
 
 #include "gentrack2.h"
 
+enum { MOST = 1024 };
+
 static void stop_on_error(gt2_status status) {
     if (status == GT2_OK) return;
     fprintf(stderr, "gentrack2: %s\n", gt2_last_error_message());
     exit(EXIT_FAILURE);
 }
 
-/* Put your own detector here: this one boxes all pixels that are nearly white. */
-static size_t detect(const gt2_image *image, gt2_detection *found) {
-    uint32_t left = image->width, top = image->height, right = 0, bottom = 0;
-    for (uint32_t y = 0; y < image->height; y++) {
-        const uint8_t *row = image->data + y * image->stride;
-        for (uint32_t x = 0; x < image->width; x++) {
-            if (row[x] < 200) continue;
-            if (x < left) left = x;
-            if (y < top) top = y;
-            if (x + 1 > right) right = x + 1;
-            if (y + 1 > bottom) bottom = y + 1;
-        }
+/* Rows of a MOTChallenge file, frame by frame. Put your own detector here. */
+struct detections {
+    FILE *file;
+    int row_frame; /* frame of the row that was read ahead, 0 for none */
+    gt2_detection row;
+};
+
+static void read_ahead(struct detections *d) {
+    gt2_detection row = {0};
+    int frame = 0;
+    d->row_frame = 0;
+    if (fscanf(d->file, "%d,%*d,%lf,%lf,%lf,%lf,%lf%*[^\n]", &frame, &row.left, &row.top, &row.width, &row.height,
+               &row.score) == 6) {
+        d->row_frame = frame;
+        d->row = row;
     }
-    if (right <= left) return 0;
-    found->left = left;
-    found->top = top;
-    found->width = right - left;
-    found->height = bottom - top;
-    found->score = 0.9;
-    return 1;
+}
+
+static size_t detections_of(struct detections *d, int frame, gt2_detection *rows) {
+    size_t count = 0;
+    while (d->row_frame == frame && count < MOST) {
+        rows[count++] = d->row;
+        read_ahead(d);
+    }
+    return count;
 }
 
 /* One frame: its luma plane is handed over without a copy. */
-static void track(gt2_tracker *tracker, GstSample *sample, int number) {
+static void track(gt2_tracker *tracker, GstSample *sample, struct detections *detections, int number) {
     GstVideoInfo info;
     GstVideoFrame mapped;
     GstBuffer *buffer = gst_sample_get_buffer(sample);
@@ -60,10 +66,10 @@ static void track(gt2_tracker *tracker, GstSample *sample, int number) {
     image.height = (uint32_t)GST_VIDEO_FRAME_HEIGHT(&mapped);
     image.format = GT2_PIXEL_I420;
 
-    gt2_detection detection = {0};
+    static gt2_detection rows[MOST];
     gt2_frame frame = GT2_FRAME_INIT;
-    frame.detections = &detection;
-    frame.detection_count = detect(&image, &detection);
+    frame.detections = rows;
+    frame.detection_count = detections_of(detections, number, rows);
     frame.image = &image;
     if (GST_BUFFER_PTS_IS_VALID(buffer)) {
         frame.timestamp_ns = (int64_t)GST_BUFFER_PTS(buffer);
@@ -76,16 +82,19 @@ static void track(gt2_tracker *tracker, GstSample *sample, int number) {
     stop_on_error(gt2_tracker_tracks(tracker, GT2_TRACKS_REPORTED, &list));
     for (size_t i = 0; i < list.count; i++) {
         const gt2_track *k = gt2_track_at(&list, i);
-        printf("frame %d  id %llu  left %.1f  top %.1f  %.0f px/s\n", number, (unsigned long long)k->id, k->left, k->top,
-               k->velocity_u);
+        printf("%d,%llu,%.2f,%.2f,%.2f,%.2f,%.4f,-1,-1,-1\n", number, (unsigned long long)k->id, k->left, k->top,
+               k->width, k->height, k->score);
     }
 }
 
 int main(int count, char **arguments) {
-    if (count != 2) {
-        fprintf(stderr, "usage: gstreamer_appsink FILE-OR-URL\n");
+    struct detections detections = {0};
+    detections.file = count == 3 ? fopen(arguments[2], "r") : NULL;
+    if (detections.file == NULL) {
+        fprintf(stderr, "usage: gstreamer_appsink FILE-OR-URL DETECTIONS, which must be a file\n");
         return EXIT_FAILURE;
     }
+    read_ahead(&detections);
     gst_init(NULL, NULL);
     gchar *uri = gst_uri_is_valid(arguments[1]) ? g_strdup(arguments[1]) : gst_filename_to_uri(arguments[1], NULL);
     GError *error = NULL;
@@ -113,7 +122,7 @@ int main(int count, char **arguments) {
     while (message == NULL && !gst_app_sink_is_eos(GST_APP_SINK(frames))) {
         GstSample *sample = gst_app_sink_try_pull_sample(GST_APP_SINK(frames), 100 * GST_MSECOND);
         if (sample != NULL) {
-            track(tracker, sample, ++number);
+            track(tracker, sample, &detections, ++number);
             gst_sample_unref(sample);
         } else {
             /* A pipeline that has failed sends neither frames nor an end. */
@@ -132,5 +141,6 @@ int main(int count, char **arguments) {
     gst_object_unref(pipeline);
     g_free(uri);
     gt2_tracker_free(tracker);
+    fclose(detections.file);
     return message == NULL && number > 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

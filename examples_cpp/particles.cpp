@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
@@ -62,6 +63,8 @@ int main(int argc, char **argv) {
         return EXIT_FAILURE;
     }
     try {
+        // OpenCV tells of each of its readers that a file is not for; what this program says is enough.
+        cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
         const std::string result = argv[3];
         const bool picture = result.size() > 4 && result.substr(result.size() - 4) == ".png";
         Detections detections = read_detections(argv[2]);

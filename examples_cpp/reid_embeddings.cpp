@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/dnn.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
@@ -69,6 +70,8 @@ int main(int argc, char **argv) {
         return EXIT_FAILURE;
     }
     try {
+        // OpenCV tells of each of its readers that a file is not for; what this program says is enough.
+        cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
         Detections detections = read_detections(argv[2]);
         cv::VideoCapture video(argv[1]);
         if (!video.isOpened()) throw std::runtime_error(std::string("cannot open ") + argv[1]);

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/highgui.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/objdetect.hpp>
@@ -68,6 +69,8 @@ static void draw(cv::Mat &image, const gentrack2::Track &track) {
 
 int main(int argc, char **argv) {
     const std::string input = argc > 1 ? argv[1] : "", output = argc > 2 ? argv[2] : "";
+    // OpenCV tells of each of its readers that a file is not for; what this program says is enough.
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     cv::VideoCapture video;
     if (!(input.empty() ? video.open(0) : video.open(input))) {
         std::cerr << "cannot open " << (input.empty() ? "the camera" : input) << '\n';

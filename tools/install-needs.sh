@@ -40,6 +40,14 @@ if [ "$task" = test ]; then
     has ninja || need ninja-build
     has abidiff || need abigail-tools
     has doxygen || need doxygen
+    # The GStreamer example and what it needs to play files: containers and pictures, and FFmpeg's decoders.
+    pkg-config --exists gstreamer-app-1.0 gstreamer-video-1.0 2>/dev/null ||
+        need libgstreamer1.0-dev libgstreamer-plugins-base1.0-dev
+    has gst-inspect-1.0 || need gstreamer1.0-tools
+    gst-inspect-1.0 --exists uridecodebin 2>/dev/null || need gstreamer1.0-plugins-base
+    gst-inspect-1.0 --exists avidemux 2>/dev/null || need gstreamer1.0-plugins-good
+    gst-inspect-1.0 --exists avdec_msmpeg4 2>/dev/null || need gstreamer1.0-libav
+    has dpkg-deb || need dpkg
 fi
 
 if [ "$task" = package ] || [ "$task" = test ]; then
@@ -69,8 +77,15 @@ if [ "$task" = arm ]; then
     has aarch64-linux-gnu-g++ || need g++-aarch64-linux-gnu
     has qemu-aarch64 || need qemu-user
     # A Rust that can compile for ARM by itself needs no other.
-    [ -n "$(find "$(rustc --print target-libdir --target aarch64-unknown-linux-gnu)" -name 'libstd-*' 2>/dev/null)" ] ||
-        [ -x /usr/bin/rustc ] || need rustc-web
+    can_compile_for() { [ -n "$(find "$(rustc --print target-libdir --target "$1")" -name 'libstd-*' 2>/dev/null)" ]; }
+    can_compile_for aarch64-unknown-linux-gnu || [ -x /usr/bin/rustc ] || need rustc-web
+    # Debian 12 has no Rust for 32 bits that is new enough; where rustup has none either, that part is left out.
+    can_compile_for armv7-unknown-linux-gnueabihf || { has rustup && rustup target add armv7-unknown-linux-gnueabihf; } ||
+        say "no Rust standard library for armv7-unknown-linux-gnueabihf: 32-bit ARM is left out"
+    if can_compile_for armv7-unknown-linux-gnueabihf; then
+        has arm-linux-gnueabihf-gcc || need gcc-arm-linux-gnueabihf libc6-dev-armhf-cross
+        has arm-linux-gnueabihf-g++ || need g++-arm-linux-gnueabihf
+    fi
 fi
 
 [ -n "$missing" ] || exit 0

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/videoio/registry.hpp>
 #include <set>
 
 #include "text.hpp"
@@ -27,6 +28,17 @@ std::vector<std::string> image_files(const std::string &directory) {
     return files;
 }
 
+/// What OpenCV's GStreamer has to say of a file that it cannot play goes straight to stderr, whatever the log level. So
+/// it is asked only for its pipelines ("... ! appsink"), and where there is no FFmpeg.
+bool open_video(cv::VideoCapture &video, const std::string &name) {
+    const std::vector<cv::VideoCaptureAPIs> readers = cv::videoio_registry::getStreamBackends();
+    const bool has_ffmpeg = std::find(readers.begin(), readers.end(), cv::CAP_FFMPEG) != readers.end();
+    if (!has_ffmpeg || name.find(" ! ") != std::string::npos) return video.open(name);
+    return std::any_of(readers.begin(), readers.end(), [&](cv::VideoCaptureAPIs reader) {
+        return reader != cv::CAP_GSTREAMER && video.open(name, reader);
+    });
+}
+
 }  // namespace
 
 FrameSource::FrameSource(const std::string &video, const std::string &images) : name_(video.empty() ? images : video) {
@@ -35,7 +47,7 @@ FrameSource::FrameSource(const std::string &video, const std::string &images) : 
     // OpenCV also takes addresses and numbered patterns, which are no files.
     const bool is_file = name_.find("://") == std::string::npos && name_.find('%') == std::string::npos;
     if (is_file && !std::filesystem::exists(name_)) throw UserError(name_ + ": no such file");
-    if (!video_.open(name_)) throw UserError(name_ + ": OpenCV cannot open this as a video");
+    if (!open_video(video_, name_)) throw UserError(name_ + ": OpenCV cannot open this as a video");
 }
 
 double FrameSource::frame_rate() {
