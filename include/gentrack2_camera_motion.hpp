@@ -64,17 +64,22 @@ enum class CameraMotionStatus {
 
 /// The motion of the camera from the previous frame to this one.
 struct CameraMotion {
-    /// The 2x3 map row by row; the identity unless `reliable`.
+    /// The 2x3 map {a, b, c, d, e, f} row by row, in pixels; the identity unless `reliable`.
     std::array<double, 6> affine = {{1.0, 0.0, 0.0, 0.0, 1.0, 0.0}};
     /// Whether the map was estimated.
     bool reliable = false;
+    /// `estimated`, or why it was not.
     CameraMotionStatus status = CameraMotionStatus::first_frame;
-    /// Corners of the previous frame, how many of them were found again, and how many of those agree with the map.
-    std::size_t features = 0, matches = 0, inliers = 0;
+    /// Corners of the previous frame, at most CameraMotionOptions::max_features.
+    std::size_t features = 0;
+    /// How many of them were found again.
+    std::size_t matches = 0;
+    /// How many of those agree with the map; 0 if nothing was fitted.
+    std::size_t inliers = 0;
     /// Standard error of the map in pixels, at that corner of the image where it is largest; 0 if nothing was fitted.
     double standard_error = 0.0;
 
-    /// The status in words.
+    /// The status in words; static.
     const char *reason() const {
         switch (status) {
             case CameraMotionStatus::estimated: return "estimated";
@@ -89,8 +94,8 @@ struct CameraMotion {
         return "";
     }
 
-    /// Gives the map to a frame if it is reliable. Otherwise the frame gets none: the identity would say that the camera
-    /// stood still. The frame points to this object, which must live until the step.
+    /// Gives the map to a frame if it is reliable. Otherwise the frame gets none: the identity would say that the
+    /// camera stood still. The frame points to this object, which must live until the step.
     void give_to(gt2_frame &frame) const & { frame.camera_motion = reliable ? affine.data() : nullptr; }
     /// A temporary would be gone before the step.
     void give_to(gt2_frame &frame) const && = delete;
@@ -109,24 +114,28 @@ struct CameraMotionOptions {
     int max_side = 960;
     /// Most corners to follow, at least 10.
     int max_features = 400;
-    /// The fewest that must agree on a motion, at least 3, and the least share of those found again, in 0..=1.
+    /// The fewest that must agree on a motion, at least 3.
     int min_inliers = 12;
+    /// The least share of those found again that must agree, in 0..=1.
     double min_inlier_share = 0.4;
     /// How far a corner may be from where the map puts it and still agree with it, as a share of the image's longer
-    /// side; at least 1 pixel of the scaled image. A scene of many depths needs several pixels; the last fit is made
-    /// with a narrower one, as far as the corners agree better.
+    /// side, in 0..1; never less than 1 pixel of the scaled image. A scene of many depths needs several pixels; the
+    /// last fit is made with a narrower one, as far as the corners agree better.
     double tolerance = 0.004;
-    /// Boxes are enlarged on every side by this share of their width and height: detectors cut off feet and shadows.
+    /// Boxes are enlarged on every side by this share of their width and height, in 0..=10: detectors cut off feet and
+    /// shadows.
     double box_margin = 0.1;
     /// Fit six parameters (with shear and a zoom for each axis) instead of four. It needs corners all over the image;
     /// where these are few or far from the edges, it is the less exact.
     bool full_affine = false;
-    /// Limits of what is plausible from one frame to the next: the shift of the image's centre as a share of the longer
-    /// side; the zoom, in or out, as a factor above 1; the rotation in degrees; the standard error as a share of the
-    /// longer side.
+    /// The largest plausible shift of the image's centre from one frame to the next, as a share of the longer side,
+    /// above 0.
     double max_shift = 0.4;
+    /// The largest plausible zoom from one frame to the next, in or out, as a factor above 1.
     double max_zoom = 1.5;
+    /// The largest plausible rotation from one frame to the next, in degrees, above 0.
     double max_rotation = 30.0;
+    /// The largest standard error of a map to be relied on, as a share of the longer side, above 0.
     double max_error = 0.003;
 };
 

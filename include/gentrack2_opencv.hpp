@@ -51,8 +51,8 @@ inline gt2_image image(const cv::Mat &mat) {
     return view;
 }
 
-/// A detection from a box in pixels (cv::Rect, cv::Rect2f or cv::Rect2d) and a score in [0, 1]. `class_id` and `tag`
-/// come back on the track that takes it.
+/// A detection from a box in pixels (cv::Rect, cv::Rect2f or cv::Rect2d) and a score in 0..=1. `class_id` and `tag` are
+/// any numbers and come back on the track that takes it. Nothing is checked before the step.
 template <typename T>
 gt2_detection detection(const cv::Rect_<T> &box, double score, std::int32_t class_id = 0, std::uint64_t tag = 0) {
     gt2_detection d = gt2_detection();
