@@ -44,6 +44,12 @@ if [ -d "$here/$consumer" ]; then cp -r "$here/$consumer" "$own"; fi
 # with_library COMMAND... : runs a program that is to find the shared library in the installed tree.
 with_library() { LD_LIBRARY_PATH="$libraries" "$@"; }
 
+# crate DIRECTORY : puts the crate there as it would be published.
+crate() {
+    quiet cargo package --manifest-path "$root/Cargo.toml" --offline --allow-dirty --no-verify --target-dir "$1"
+    mv "$1/package/gentrack2-$VERSION.crate" "$1/gentrack2.tar.gz"
+}
+
 configure() { quiet cmake -S "$own" -B "$own/build" -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX" "$@"; }
 
 case $consumer in
@@ -66,10 +72,9 @@ cxx_subdirectory)
     for program in boxes boxes_static; do "$own/build/$program"; done
     ;;
 minimal_features)
-    # From the crate as it would be published, which is an archive like any other.
-    quiet cargo package --manifest-path "$root/Cargo.toml" --offline --allow-dirty --no-verify --target-dir "$own/crate"
-    mv "$own/crate/package/gentrack2-$VERSION.crate" "$own/gentrack2.tar.gz"
-    configure -DARCHIVE="$own/gentrack2.tar.gz"
+    # The crate is an archive like any other.
+    crate "$own/crate"
+    configure -DARCHIVE="$own/crate/gentrack2.tar.gz"
     quiet cmake --build "$own/build"
     for kind in shared static; do "$own/build/only_sort_$kind"; done
     ;;
@@ -96,6 +101,18 @@ packages)
         PKG_CONFIG_PATH=$(dirname "$pc") quiet make -C "$own/$tree/program"
         LD_LIBRARY_PATH=$(dirname "$(dirname "$pc")") "$own/$tree/program/two_walkers"
     done
+    ;;
+rust)
+    # A new program that adds the crate. Where there is no network, its lock file says which versions are at hand.
+    crate "$own/crate"
+    tar xzf "$own/crate/gentrack2.tar.gz" -C "$own/crate"
+    quiet cargo new --quiet --vcs none --bin --name walkers "$own/program"
+    cp "$here/rust/main.rs" "$own/program/src/main.rs"
+    cp "$own/crate/gentrack2-$VERSION/Cargo.lock" "$own/program/Cargo.lock"
+    cd "$own/program"
+    quiet cargo add --quiet --offline --path "$own/crate/gentrack2-$VERSION" gentrack2
+    quiet cargo build --quiet --offline --target-dir "$own/target"
+    "$own/target/debug/walkers"
     ;;
 python)
     python3 "$root/examples_python/track.py" "$libraries/libgentrack2.so.0" >"$work/python.log" 2>&1 ||
