@@ -20,7 +20,7 @@ help:
 	@echo "make docs       the reference of the C, C++ and Rust interfaces, in $(BUILD)/docs/"
 	@echo "make demo       track OpenCV's sample video; results in out/"
 	@echo "make test       all tests: Rust, C and C++"
-	@echo "make arm        the library for 64-bit ARM, and its tests under qemu"
+	@echo "make arm        the library for ARM, 64 and 32 bits, and its tests under qemu"
 	@echo "make accuracy   a table of all trackers on all set-ups of eval/README.md, if GENTRACK2_SHARED names the data;"
 	@echo "                ACCURACY='--entries gentrack2 --setups H,P' and the like are options of eval/evaluate.py"
 	@echo "make bench      speed and memory beside other crates' trackers and OpenCV, in about ten minutes: out/bench.md;"
@@ -40,10 +40,10 @@ build:
 
 # A configuration of its own, which needs neither OpenCV nor C++ programs; cargo's results are shared.
 install:
-	@cmake -S . -B $(BUILD)/install -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=$(PREFIX) \
+	@cmake -S . -B $(BUILD)/install -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX="$(PREFIX)" \
 	    -DGENTRACK2_BUILD_TESTS=OFF -DGENTRACK2_BUILD_EXAMPLES=OFF $(CMAKE_OPTIONS)
 	@cmake --build $(BUILD)/install
-	DESTDIR=$(DESTDIR) cmake --install $(BUILD)/install
+	DESTDIR="$(DESTDIR)" cmake --install $(BUILD)/install
 
 package:
 	@tools/install-needs.sh package
@@ -68,6 +68,8 @@ arm:
 	@tools/install-needs.sh arm
 	@$(MAKE) --no-print-directory build
 	@tools/arm.sh $(BUILD) aarch64
+	@if tools/arm-rust.sh armhf $(BUILD)/arm/rust >/dev/null 2>&1; then tools/arm.sh $(BUILD) armhf; \
+	    else echo "32-bit ARM is left out: Rust's standard library for it is not here"; fi
 
 accuracy:
 	@tools/install-needs.sh test

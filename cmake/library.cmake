@@ -6,6 +6,8 @@ set(GENTRACK2_FEATURES "" CACHE STRING "Cargo features, such as sort,toml; empty
 set(target "")
 if(CMAKE_CROSSCOMPILING AND CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
     set(target aarch64-unknown-linux-gnu)
+elseif(CMAKE_CROSSCOMPILING AND CMAKE_SYSTEM_PROCESSOR MATCHES "^armv7")
+    set(target armv7-unknown-linux-gnueabihf)
 endif()
 set(GENTRACK2_CARGO_TARGET "${target}" CACHE STRING "Rust's name of the machine to build for; empty for this one")
 

@@ -53,7 +53,7 @@ SPOIL(skipped_flag, s->frame.detector_skipped = -1)
 SPOIL(skipped_with_detections, s->frame.detector_skipped = 1)
 SPOIL(size_differs, s->frame.image_width = 100; s->frame.image_height = 100)
 SPOIL(size_half_given, s->frame.image_width = SCENE_WIDTH)
-SPOIL(struct_size_tiny, s->frame.struct_size = 4)
+SPOIL(struct_size_tiny, s->frame.struct_size = sizeof(size_t) - 1)
 SPOIL(struct_size_huge, s->frame.struct_size = SIZE_MAX)
 
 static const bad_frame bad_frames[] = {
@@ -99,7 +99,7 @@ static const bad_frame bad_frames[] = {
     {"skipped_with_detections", skipped_with_detections, GT2_ERR_FRAME, "detector_skipped"},
     {"size_differs", size_differs, GT2_ERR_FRAME, "frame.image_width and image_height: are 100x100, the image is 640x480"},
     {"size_half_given", size_half_given, GT2_ERR_FRAME, "frame.image_height: is 0"},
-    {"struct_size_tiny", struct_size_tiny, GT2_ERR_STRUCT_SIZE, "frame.struct_size: is 4"},
+    {"struct_size_tiny", struct_size_tiny, GT2_ERR_STRUCT_SIZE, "frame.struct_size: is "},
     {"struct_size_huge", struct_size_huge, GT2_ERR_STRUCT_SIZE, "frame.struct_size: "},
 };
 

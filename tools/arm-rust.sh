@@ -1,13 +1,15 @@
 #!/bin/sh
 # Prints what the environment of cargo must be to compile for a Linux on ARM, as lines for `export`. If the Rust at hand
 # cannot, Debian's compiler and Debian's standard library for that machine are taken, which must be of one version; the
-# library is unpacked, not installed, and the machine's list of architectures stays as it is.
+# library is unpacked, not installed, and the machine's list of architectures stays as it is. For 32 bits Debian 12 has
+# none that is new enough.
 #
-#   usage: tools/arm-rust.sh aarch64 DIRECTORY-FOR-FILES
+#   usage: tools/arm-rust.sh aarch64|armhf DIRECTORY-FOR-FILES
 set -eu
 
 case $1 in
 aarch64) target=aarch64-unknown-linux-gnu debian=arm64 prefix=aarch64-linux-gnu ;;
+armhf) target=armv7-unknown-linux-gnueabihf debian="" prefix=arm-linux-gnueabihf ;;
 *) echo "no such machine: $1" >&2 && exit 2 ;;
 esac
 files=$2
@@ -20,6 +22,10 @@ echo "CARGO_TARGET_${upper}_RUNNER='qemu-${prefix%%-*} -L /usr/$prefix'"
 has_std() { [ -n "$(find "$1" -name 'libstd-*.rlib' 2>/dev/null)" ]; }
 
 if has_std "$(rustc --print target-libdir --target "$target")"; then exit 0; fi
+if [ -z "$debian" ]; then
+    echo "no Rust standard library for $target is here (rustup target add $target)" >&2
+    exit 1
+fi
 
 installed() { dpkg-query -W -f '${Version}' rustc-web; }
 as_root() { if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi; }

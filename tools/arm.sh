@@ -2,7 +2,7 @@
 # Cross-builds the library and the C and C++ tests for a Linux on ARM and runs them under qemu, the oracle tests too, and
 # compares the bits of all results with this machine's. Run by `make arm`, after `make build`.
 #
-#   usage: tools/arm.sh BUILD-DIRECTORY aarch64
+#   usage: tools/arm.sh BUILD-DIRECTORY aarch64|armhf
 set -eu
 cd "$(dirname "$0")/.."
 
@@ -12,6 +12,7 @@ out=$(pwd)/$build/arm
 
 case $machine in
 aarch64) toolchain=aarch64-linux-gnu ;;
+armhf) toolchain=arm-linux-gnueabihf ;;
 *) echo "no such machine: $machine" >&2 && exit 2 ;;
 esac
 
