@@ -1,8 +1,21 @@
 # What is installed, in two components: `runtime` is what a finished program needs, `development` the rest.
 include(CMakePackageConfigHelpers)
 
+# Shared libraries are executable but for Debian's, and lose their symbols with --strip; CMake does both for libraries that
+# it built itself.
+set(execute OWNER_EXECUTE GROUP_EXECUTE WORLD_EXECUTE)
+if(CMAKE_INSTALL_SO_NO_EXE)
+    set(execute "")
+endif()
 install(FILES "${lib_dir}/${shared_file}" DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT runtime
-    PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+    PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ ${execute})
+set(installed_dir "${CMAKE_INSTALL_LIBDIR}")
+cmake_path(ABSOLUTE_PATH installed_dir BASE_DIRECTORY "\${CMAKE_INSTALL_PREFIX}")
+install(CODE "
+    if(CMAKE_INSTALL_DO_STRIP)
+        execute_process(COMMAND \"${CMAKE_STRIP}\" --strip-unneeded \"\$ENV{DESTDIR}${installed_dir}/${shared_file}\"
+            COMMAND_ERROR_IS_FATAL ANY)
+    endif()" COMPONENT runtime)
 install(FILES "${lib_dir}/${soname}" DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT runtime)
 install(FILES "${lib_dir}/${shared_name}" "${lib_dir}/libgentrack2.a"
     DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)

@@ -9,10 +9,8 @@ fn main() -> Result<(), Error> {
     let mut loaded = None;
     for t in 0..60 {
         let x = 6.0 * f64::from(t);
-        let detections = [
-            Detection::new(100.0 + x, 100.0, 40.0, 100.0, 0.9),
-            Detection::new(460.0 - x, 115.0, 40.0, 100.0, 0.9),
-        ];
+        let detections =
+            [Detection::new(100.0 + x, 100.0, 40.0, 100.0, 0.9), Detection::new(460.0 - x, 115.0, 40.0, 100.0, 0.9)];
         let frame = Frame::new(&detections);
         let output = tracker.step(&frame)?;
         assert_eq!(output.track_of_detection, [1, 2], "frame {t}");
