@@ -64,7 +64,7 @@ def made_up(folder):
     kept = defaultdict(list)
     for frame, tracks in rows.items():
         for k, (left, top, _) in enumerate(squares(frame - 1)):
-            kept[k] += [identity for identity, box in tracks if abs(box[0] - left) < 6 and abs(box[1] - top) < 4]
+            kept[k] += [identity for identity, box in tracks if abs(box[0] - left) < 3 and abs(box[1] - top) < 3]
     for k in range(2):
         assert len(set(kept[k])) == 1 and len(kept[k]) > FRAMES - 5, f"square {k} was {kept[k]}"
     assert kept[0][0] != kept[1][0]
