@@ -1,4 +1,6 @@
-"""A Python package for a test, in a virtual environment of its own."""
+"""Python packages for a program, in a virtual environment of its own."""
+import fcntl
+import hashlib
 import os
 import subprocess
 import sys
@@ -9,24 +11,50 @@ SKIPPED = 77
 
 
 def skip(*reason):
-    """Ends the test as skipped."""
+    """Ends the program as skipped."""
     print("SKIPPED:", *reason)
     sys.exit(SKIPPED)
 
 
-def enter(directory, package):
-    """Runs this script again with the Python of a virtual environment in `directory` that has the package; skips the
-    test if it cannot be installed."""
-    python = os.path.join(directory, "bin", "python")
+def stamp_of(requirements):
+    """What a virtual environment with these is marked with: they, and the contents of the files among them."""
+    digest = hashlib.sha256(repr((requirements, sys.version_info[:2])).encode())
+    for path in filter(os.path.isfile, requirements):
+        with open(path, "rb") as file:
+            digest.update(file.read())
+    return digest.hexdigest()
+
+
+def make(directory, requirements):
+    """Makes the virtual environment, unless it is there with just these requirements."""
+    mark, stamp = os.path.join(directory, "requirements.sha256"), stamp_of(requirements)
+    os.makedirs(os.path.dirname(os.path.abspath(directory)), exist_ok=True)
+    # Two programs may want it at the same time.
+    with open(f"{directory}.lock", "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if os.path.exists(mark):
+            with open(mark) as file:
+                if file.read() == stamp:
+                    return
+        print(f"installing Python packages into {directory}, once", file=sys.stderr, flush=True)
+        venv.create(directory, with_pip=True, clear=True)
+        install = [os.path.join(directory, "bin", "python"), "-m", "pip", "install", "--quiet",
+                   "--disable-pip-version-check", *requirements]
+        subprocess.run(install, check=True, capture_output=True, text=True)
+        with open(mark, "w") as file:
+            file.write(stamp)
+
+
+def enter(directory, *requirements):
+    """Runs this program again with the Python of a virtual environment in `directory` that has what pip is told to
+    install; ends it as skipped if that cannot be installed."""
     if os.path.realpath(sys.prefix) == os.path.realpath(directory):
         return
-    has_package = [python, "-c", f"import {package}"]
-    if not os.path.exists(python) or subprocess.run(has_package, capture_output=True).returncode:
-        try:
-            venv.create(directory, with_pip=True, clear=True)
-            install = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", package]
-            subprocess.run(install, check=True, capture_output=True, text=True)
-        except (OSError, subprocess.CalledProcessError) as error:
-            reason = (getattr(error, "stderr", "") or str(error)).strip().splitlines()[-1:]
-            skip(f"Python's {package} package cannot be installed:", *reason)
+    try:
+        make(directory, requirements)
+    except (OSError, subprocess.CalledProcessError) as error:
+        reason = (getattr(error, "stderr", "") or str(error)).strip().splitlines()[-1:]
+        skip(f"Python's {' '.join(map(os.path.basename, requirements))} cannot be installed:", *reason)
+    python = os.path.join(directory, "bin", "python")
+    sys.stdout.flush()
     os.execv(python, [python] + sys.argv)
