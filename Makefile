@@ -17,7 +17,7 @@ help:
 	@echo "make build      the library and the examples, in $(BUILD)/"
 	@echo "make install    install it, PREFIX=/usr/local DESTDIR= (no tests, no examples)"
 	@echo "make package    Debian packages and a .tar.gz, in $(BUILD)/packages/"
-	@echo "make docs       the reference of the C, C++ and Rust interfaces, in $(BUILD)/docs/"
+	@echo "make docs       the manual and the references of the C, C++ and Rust interfaces, in $(BUILD)/docs/"
 	@echo "make demo       track OpenCV's sample video; results in out/"
 	@echo "make test       all tests: Rust, C and C++"
 	@echo "make arm        the library for ARM, 64 and 32 bits, and its tests under qemu"

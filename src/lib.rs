@@ -47,6 +47,15 @@ mod validation;
 
 pub mod capi;
 
+/// The Rust of README and manual, for documentation tests.
+#[cfg(doctest)]
+mod manual {
+    #[doc = include_str!("../README.md")]
+    mod readme {}
+    #[doc = include_str!("../docs/recipes.md")]
+    mod recipes {}
+}
+
 #[cfg(not(any(feature = "gentrack2", feature = "_kalman")))]
 compile_error!("a library without any tracker: enable the feature of at least one, such as gentrack2 or sort");
 

@@ -1,7 +1,7 @@
 #!/bin/sh
-# Writes the references of the C and C++ interface and of the Rust one side by side; run by `make docs`.
+# Writes the manual and the references of the C, C++ and Rust interfaces side by side; run by `make docs`.
 #
-#   usage: tools/docs.sh DIRECTORY       writes DIRECTORY/index.html, DIRECTORY/c/ and DIRECTORY/rust/
+#   usage: tools/docs.sh DIRECTORY       writes DIRECTORY/index.html, manual/, c/ and rust/ there
 #          tools/docs.sh --check         only sees that nothing in the headers lacks documentation or is wrong in it
 set -eu
 cd "$(dirname "$0")/.."
@@ -24,7 +24,7 @@ mkdir -p "$out"
 doxygen_with "OUTPUT_DIRECTORY = $out/c"
 RUSTDOCFLAGS="-D warnings" cargo doc --quiet --lib --no-deps --locked
 cp -r target/doc "$out/rust"
-cp docs/parameters.md "$out"
+python3 tools/manual/write_html.py "$(dirname "$out")" "$out/manual"
 cat >"$out/index.html" <<HTML
 <!DOCTYPE html>
 <html lang="en">
@@ -32,10 +32,11 @@ cat >"$out/index.html" <<HTML
 <title>gentrack2</title>
 <h1>gentrack2</h1>
 <ul>
+<li><a href="manual/docs/README.html">The manual</a></li>
 <li><a href="c/gentrack2_8h.html">C: gentrack2.h</a></li>
 <li><a href="c/namespacegentrack2.html">C++: gentrack2.hpp and its companions</a></li>
 <li><a href="rust/gentrack2/index.html">Rust: the crate</a></li>
-<li><a href="parameters.md">Parameters of all trackers</a></li>
+<li><a href="manual/docs/parameters.html">Parameters of all trackers</a></li>
 </ul>
 </html>
 HTML

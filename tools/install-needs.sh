@@ -56,6 +56,8 @@ fi
 
 if [ "$task" = docs ]; then
     has doxygen || need doxygen
+    has python3 || need python3
+    python3 -c 'import ensurepip' 2>/dev/null || need python3-venv
 fi
 
 if [ "$task" = demo ] || [ "$task" = bench ]; then
