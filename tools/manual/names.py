@@ -78,9 +78,10 @@ class Names:
 
     def _defaults(self, table):
         """Tables of parameters of gentrack2 with their defaults say what the library says."""
-        if "parameter" not in table.head or "default" not in table.head:
+        key = next((i for i, head in enumerate(table.head) if head.split()[:1] == ["parameter"]), None)
+        if key is None or "default" not in table.head:
             return
-        key, default = table.head.index("parameter"), table.head.index("default")
+        default = table.head.index("default")
         known = self.library.defaults["gentrack2"]
         for row in table.rows:
             keys, told = row[key][0], [value.strip() for value in row[default][1].split(",")]

@@ -31,6 +31,8 @@ MISTAKES = {
     "a setting that is not there": ("`cost_gates=0.3`", "no parameter"),
     "a value out of range": ("`birth_score=7`", "birth_score"),
     "a wrong default": ("| parameter | default |\n|---|---|\n| `coast` | 19 |", "the default is"),
+    "a wrong one of two": ("| parameter of `x` | default |\n|---|---|\n| `coast`, `birth_iou` | 18, 1 |", "the default is"),
+    "a default too few": ("| parameter | default |\n|---|---|\n| `coast`, `birth_iou` | 18 |", "1 defaults for 2"),
     "a file that is not there": ("`tests/nothing.rs`", "no such file"),
     "a source file without that function": ("[`ageing::grow_old`](../src/trackers/gentrack2/ageing.rs)", "defines no"),
     "a block without a language": ("```\nx\n```", "nobody knows"),

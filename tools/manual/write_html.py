@@ -14,7 +14,8 @@ import check
 STYLE = """
 body { max-width: 60rem; margin: 2rem auto; padding: 0 1rem; font: 16px/1.5 sans-serif; color: #1b1f23; }
 pre { background: #f5f6f7; padding: .8rem; overflow-x: auto; } code { background: #f5f6f7; font-size: 14px; }
-table { border-collapse: collapse; display: block; overflow-x: auto; } td, th { border: 1px solid #ccd; padding: .3rem .6rem; }
+table { border-collapse: collapse; display: block; overflow-x: auto; margin: 1rem 0; }
+td, th { border: 1px solid #ccd; padding: .3rem .6rem; }
 img { max-width: 100%; } nav { font-size: 14px; border-bottom: 1px solid #ccd; padding-bottom: .5rem; }
 """
 
