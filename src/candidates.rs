@@ -1,19 +1,22 @@
 //! Which boxes of two lists overlap, found without trying all pairs: of not too many by looking from each along x
-//! ([`window`]), of more by sweeps along x, one in each of many horizontal strips. In a strip only a few boxes lie above
-//! each other, however many there are in all.
+//! ([`window`]), of more by cells ([`grid`]), and of those for which neither is of use by sweeps along x, one in each of
+//! many horizontal strips. In a strip only a few boxes lie above each other, however many there are in all.
 //!
 //! With more than about a thousand boxes in both lists a row has a limited number of partners, the nearest ones: all pairs
 //! of tens of thousands of boxes on one spot do not fit into memory.
 
+mod column;
+mod grid;
 mod window;
 
 use crate::assignment::refill;
 use crate::geometry::Rect;
 
+use grid::Grid;
 use window::Window;
 
-/// Up to so many pairs there is no need of strips.
-const NOT_MANY: usize = 1 << 23;
+/// Up to so many pairs there is no need of a grid.
+const NOT_MANY: usize = 1 << 20;
 
 /// Pairs for which there is always room; rows share it.
 const ROOM: usize = 1 << 20;
@@ -28,6 +31,9 @@ const STRIP_HEIGHT: f64 = 2.0;
 #[derive(Clone, Debug, Default)]
 pub struct OverlapSweep {
     window: Window,
+    grid: Grid,
+    /// The boxes to be compared, where the caller does not keep them.
+    boxes: [Vec<Rect>; 2],
     /// The boxes of all strips, strip by strip, and where each strip begins.
     entries: Vec<Entry>,
     first: Vec<u32>,
@@ -39,6 +45,17 @@ pub struct OverlapSweep {
     /// Where each row's partners begin when the pairs are put into order, and the partners.
     slots: Vec<u32>,
     partners: Vec<u32>,
+}
+
+/// Overlapping pairs, and the boxes they are of.
+#[derive(Clone, Copy, Debug)]
+pub struct OverlappingPairs<'a> {
+    /// `(row, column)`, sorted by row, then column.
+    pub pairs: &'a [(u32, u32)],
+    /// The rows' boxes.
+    pub rows: &'a [Rect],
+    /// The columns' boxes.
+    pub columns: &'a [Rect],
 }
 
 /// A box in a strip.
@@ -97,12 +114,33 @@ impl Strips {
 }
 
 impl OverlapSweep {
+    /// The pairs of boxes that share an area, of boxes that are made for this.
+    pub fn between(
+        &mut self,
+        rows: impl Iterator<Item = Rect>,
+        columns: impl Iterator<Item = Rect>,
+    ) -> OverlappingPairs<'_> {
+        let mut boxes = std::mem::take(&mut self.boxes);
+        let [a, b] = &mut boxes;
+        a.clear();
+        a.extend(rows);
+        b.clear();
+        b.extend(columns);
+        self.pairs(a, b);
+        self.boxes = boxes;
+        OverlappingPairs { pairs: &self.pairs, rows: &self.boxes[0], columns: &self.boxes[1] }
+    }
+
     /// The `(row, column)` whose boxes share an area, sorted by row, then column.
     pub fn pairs(&mut self, rows: &[Rect], columns: &[Rect]) -> &[(u32, u32)] {
         let most = LEAST_PER_ROW.max(ROOM / rows.len().max(1));
         let are_not_many = rows.len().saturating_mul(columns.len()) <= NOT_MANY;
         self.pairs.clear();
-        if are_not_many && self.window.add_pairs(rows, columns, most, &mut self.pairs) {
+        let are_found = match are_not_many {
+            true => self.window.add_pairs(rows, columns, most, &mut self.pairs),
+            false => self.grid.add_pairs(rows, columns, most, &mut self.pairs),
+        };
+        if are_found {
             return &self.pairs;
         }
         self.limited_pairs(rows, columns, most)

@@ -4,6 +4,8 @@
 use crate::assignment::refill;
 use crate::geometry::Rect;
 
+use super::column::Column;
+
 /// Up to so many pairs are all looked at, without bins.
 const ALL: usize = 512;
 
@@ -16,16 +18,6 @@ pub struct Window {
     /// ... and the first one that, or one before it, reaches into the bin or beyond.
     start: Vec<u32>,
     found: Vec<u32>,
-}
-
-/// A column's box.
-#[derive(Clone, Copy, Debug, Default)]
-struct Column {
-    left: f64,
-    right: f64,
-    top: f64,
-    bottom: f64,
-    index: u32,
 }
 
 /// Bins of equal width; the first and the last go on for ever. A larger number never has a lower bin, whatever rounding
@@ -68,17 +60,15 @@ impl Window {
         }
         refill(&mut self.found, columns.len() + 1, 0);
         for (row, rect) in (0..).zip(rows).filter(|(_, r)| r.area() > 0.0) {
-            let (left, right, top, bottom) = (rect.left, rect.right(), rect.top, rect.bottom());
             let reach = match &bins {
-                Some(bins) => self.start[bins.of(left)] as usize..self.end[bins.of(right)] as usize,
+                Some(bins) => self.start[bins.of(rect.left)] as usize..self.end[bins.of(rect.right())] as usize,
                 None => 0..self.columns.len(),
             };
             let mut count = 0;
             for c in self.columns.get(reach).unwrap_or_default() {
-                let overlaps = (c.right > left) & (c.left < right) & (c.top < bottom) & (top < c.bottom);
                 // Written in any case, and written over if it was none.
                 self.found[count] = c.index;
-                count += usize::from(overlaps);
+                count += usize::from(c.overlaps(rect));
             }
             if count > most {
                 return false;
@@ -123,11 +113,5 @@ impl Window {
             }
         }
         self.start.resize(bins.last + 1, total);
-    }
-}
-
-impl Column {
-    fn of((index, c): (u32, &Rect)) -> Self {
-        Self { left: c.left, right: c.right(), top: c.top, bottom: c.bottom(), index }
     }
 }

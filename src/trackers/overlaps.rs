@@ -28,7 +28,6 @@ pub struct Overlap {
 #[derive(Clone, Debug, Default)]
 pub struct Overlaps {
     sweep: OverlapSweep,
-    rects: [Vec<Rect>; 2],
     pairs: Vec<Overlap>,
 }
 
@@ -45,16 +44,12 @@ impl Overlaps {
             (width, height) if width > 0.0 && height > 0.0 => Rect { width, height, ..r },
             _ => Rect::default(),
         };
-        let [a, b] = &mut self.rects;
-        a.clear();
-        a.extend(rows.map(measured));
-        b.clear();
-        b.extend(columns.map(measured));
+        let found = self.sweep.between(rows.map(measured), columns.map(measured));
         self.pairs.clear();
-        self.pairs.extend(self.sweep.pairs(a, b).iter().map(|&(row, column)| Overlap {
+        self.pairs.extend(found.pairs.iter().map(|&(row, column)| Overlap {
             row,
             column,
-            iou: a[row as usize].iou(&b[column as usize]),
+            iou: found.rows[row as usize].iou(&found.columns[column as usize]),
         }));
         &self.pairs
     }

@@ -134,12 +134,14 @@ impl TrackingAlgorithm for Sort {
             }
             self.associate(frame, context);
             self.start_tracks(frame, context);
-            for track in &mut self.tracks {
-                track.run.judge(self.parameters.min_hits, context.detector_frames);
-            }
         }
         let (max_age, rate) = (self.parameters.max_age, context.frame_rate);
-        list_and_remove(&mut self.tracks, output, |t| t.run.is_over(max_age), |t| t.shown(rate), drop);
+        let (min_hits, detector_frames) = (self.parameters.min_hits, context.detector_frames);
+        let judge = |t: &mut SortTrack| match frame.detector_skipped {
+            true => (),
+            false => t.run.judge(min_hits, detector_frames),
+        };
+        list_and_remove(&mut self.tracks, output, judge, |t| t.run.is_over(max_age), |t| t.shown(rate), drop);
     }
 
     fn reset(&mut self) {

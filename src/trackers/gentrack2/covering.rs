@@ -9,27 +9,22 @@ use super::target::Target;
 /// Finds covered tracks, with buffers that are reused.
 #[derive(Default)]
 pub struct Covering {
-    sweep: OverlapSweep,
-    hidden: Vec<Rect>,
-    hiding: Vec<Rect>,
     shares: Vec<f64>,
 }
 
 impl Covering {
     /// For each weak target the largest share of its box, in `[0, 1]`, that one strong target's box covers; 0 for
     /// strong targets.
-    pub fn shares(&mut self, targets: &[Target]) -> &[f64] {
-        let boxes = |list: &mut Vec<Rect>, strong: bool| {
-            list.clear();
-            let chosen = |t: &Target| if t.is_strong() == strong { Rect::from(t.state) } else { Rect::default() };
-            list.extend(targets.iter().map(chosen));
+    pub fn shares(&mut self, sweep: &mut OverlapSweep, targets: &[Target]) -> &[f64] {
+        let boxes = |strong: bool| {
+            let chosen = move |t: &Target| if t.is_strong() == strong { Rect::from(t.state) } else { Rect::default() };
+            targets.iter().map(chosen)
         };
-        boxes(&mut self.hidden, false);
-        boxes(&mut self.hiding, true);
+        let found = sweep.between(boxes(false), boxes(true));
         self.shares.clear();
         self.shares.resize(targets.len(), 0.0);
-        for &(weak, strong) in self.sweep.pairs(&self.hidden, &self.hiding) {
-            let (own, cover) = (&self.hidden[weak as usize], &self.hiding[strong as usize]);
+        for &(weak, strong) in found.pairs {
+            let (own, cover) = (&found.rows[weak as usize], &found.columns[strong as usize]);
             let share = &mut self.shares[weak as usize];
             *share = share.max(own.intersection(cover) / own.area());
         }
@@ -61,6 +56,6 @@ mod tests {
             target(0.0, 20.0, false),
             target(300.0, 20.0, false),
         ];
-        assert_eq!(Covering::default().shares(&targets), [0.75, 0.0, 0.0, 0.75, 0.0]);
+        assert_eq!(Covering::default().shares(&mut OverlapSweep::default(), &targets), [0.75, 0.0, 0.0, 0.75, 0.0]);
     }
 }

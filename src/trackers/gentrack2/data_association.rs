@@ -17,7 +17,6 @@ use super::target::{Match, Target};
 pub struct DataAssociation {
     sweep: OverlapSweep,
     solver: Assignment,
-    areas: [Vec<Rect>; 2],
     edges: Vec<Edge>,
     /// Whether each detection was taken.
     pub taken: Vec<bool>,
@@ -49,7 +48,16 @@ impl DataAssociation {
         rule: ClassRule,
         sight: &mut Sight<'_, '_>,
     ) {
-        self.collect_edges(p, targets, observations, scene, rule, sight);
+        // Where pairs need not overlap, boxes are widened so that pairs within the distance scale do.
+        let reach = if p.min_iou > 0.0 { 0.0 } else { p.distance_scale_max };
+        let rows = targets.iter().map(|t| widened(&t.predicted, reach));
+        let columns = (0..observations.len()).map(|j| widened(&observations.get(j).state, reach));
+        self.edges.clear();
+        for &(row, column) in self.sweep.between(rows, columns).pairs {
+            let target = &targets[row as usize];
+            let cost = pair_cost(p, target, observations, column as usize, scene, rule, p.cost_gate, sight);
+            self.edges.extend(cost.map(|cost| Edge { row, column, cost }));
+        }
         let columns = self.solver.solve(targets.len(), observations.len(), &self.edges, p.cost_gate);
         self.taken.clear();
         self.taken.resize(observations.len(), false);
@@ -61,30 +69,6 @@ impl DataAssociation {
                     Match::Detection(column)
                 }
             };
-        }
-    }
-
-    fn collect_edges(
-        &mut self,
-        p: &GenTrack2Parameters,
-        targets: &[Target],
-        observations: &mut Observations,
-        scene: &SceneResidual,
-        rule: ClassRule,
-        sight: &mut Sight<'_, '_>,
-    ) {
-        self.edges.clear();
-        // Where pairs need not overlap, boxes are widened so that pairs within the distance scale do.
-        let reach = if p.min_iou > 0.0 { 0.0 } else { p.distance_scale_max };
-        let [rows, columns] = &mut self.areas;
-        rows.clear();
-        rows.extend(targets.iter().map(|t| widened(&t.predicted, reach)));
-        columns.clear();
-        columns.extend((0..observations.len()).map(|j| widened(&observations.get(j).state, reach)));
-        for &(row, column) in self.sweep.pairs(rows, columns) {
-            let target = &targets[row as usize];
-            let cost = pair_cost(p, target, observations, column as usize, scene, rule, p.cost_gate, sight);
-            self.edges.extend(cost.map(|cost| Edge { row, column, cost }));
         }
     }
 }

@@ -22,6 +22,7 @@ mod covering;
 mod data_association;
 mod fitness;
 mod flight;
+mod lent_particles;
 mod neighbours;
 mod new_tracks;
 mod observations;
@@ -42,9 +43,10 @@ mod whiteness;
 
 pub use parameters::*;
 
+use crate::candidates::OverlapSweep;
 use crate::classes::ClassRule;
 use crate::frame::Frame;
-use crate::geometry::{Rect, State};
+use crate::geometry::State;
 #[cfg(feature = "snapshot")]
 use crate::snapshot::{Decoder, Encoder};
 use crate::track::{Output, Particle};
@@ -56,6 +58,7 @@ use coasting::CoastRecord;
 use common_motion::CommonMotion;
 use covering::Covering;
 use data_association::{DataAssociation, Sight};
+use lent_particles::LentParticles;
 use neighbours::Neighbours;
 use new_tracks::Births;
 use observations::Observations;
@@ -95,6 +98,8 @@ struct Workspace {
     /// Ended targets, whose buffers serve the next ones.
     spare: Vec<Target>,
     observations: Observations,
+    /// For what is compared among targets, which one search after the other can share.
+    sweep: OverlapSweep,
     swarm: Swarm,
     neighbours: Neighbours,
     expanded: Neighbours,
@@ -108,7 +113,7 @@ struct Workspace {
     common_motion: CommonMotion,
     states: Vec<State>,
     predictions: Vec<(State, State)>,
-    particles: ParticleList,
+    particles: LentParticles,
 }
 
 impl Workspace {
@@ -136,6 +141,7 @@ impl GenTrack2 {
 
     /// Starts the frame: moves everything with the camera and predicts.
     fn begin_frame(&mut self, frame: &Frame<'_>, ticks: f64) {
+        self.work.particles.recall();
         self.memory.time += ticks;
         self.memory.record.decay(ticks);
         for target in &mut self.memory.targets {
@@ -155,7 +161,7 @@ impl GenTrack2 {
         let targets = &mut self.memory.targets;
         work.states.clear();
         work.states.extend(targets.iter().map(|t| t.state));
-        work.neighbours.search(&work.states, p.neighbour_radius, |_| true);
+        work.neighbours.search(&mut work.sweep, &work.states, p.neighbour_radius, |_| true);
         work.predictions.clear();
         work.predictions.extend(targets.iter().map(|t| (t.predicted, t.velocity)));
         for (index, target) in targets.iter_mut().enumerate().filter(|(_, target)| !target.dormant) {
@@ -209,8 +215,8 @@ impl GenTrack2 {
         let (p, work, targets) = (&self.parameters, &mut self.work, &mut self.memory.targets);
         let (neighbours, states) = (&work.neighbours, &work.states);
         let lonely = |i: usize| !targets[i].is_strong() && neighbours.of(i).is_empty();
-        work.expanded.search(states, p.neighbour_radius_expanded, lonely);
-        let covered = work.covering.shares(targets);
+        work.expanded.search(&mut work.sweep, states, p.neighbour_radius_expanded, lonely);
+        let covered = work.covering.shares(&mut work.sweep, targets);
         let guess_motion = p.common_motion && frame.camera_motion.is_none();
         let shift = if guess_motion { work.common_motion.shift(targets) } else { (0.0, 0.0) };
         for index in 0..targets.len() {
@@ -320,7 +326,6 @@ impl GenTrack2 {
             }
             reporting::report(target, output);
         }
-        self.work.particles.fill(&memory.targets);
     }
 }
 
@@ -351,7 +356,7 @@ impl TrackingAlgorithm for GenTrack2 {
     fn reset(&mut self) {
         self.work.spare.append(&mut self.memory.targets);
         self.memory = Memory::default();
-        self.work.particles.clear();
+        self.work.particles.recall();
     }
 
     #[cfg(feature = "snapshot")]
@@ -362,45 +367,11 @@ impl TrackingAlgorithm for GenTrack2 {
     #[cfg(feature = "snapshot")]
     fn load(&mut self, state: &mut Decoder<'_>) -> Result<(), crate::Error> {
         self.memory = state.take()?;
-        self.work.particles.fill(&self.memory.targets);
+        self.work.particles.recall();
         Ok(())
     }
 
     fn particles(&self, id: u64) -> &[Particle] {
-        self.work.particles.of(id)
-    }
-}
-
-/// The particles of all targets as they are handed out, in one flat list.
-#[derive(Default)]
-struct ParticleList {
-    owners: Vec<(u64, std::ops::Range<usize>)>,
-    list: Vec<Particle>,
-}
-
-impl ParticleList {
-    fn clear(&mut self) {
-        self.owners.clear();
-        self.list.clear();
-    }
-
-    fn fill(&mut self, targets: &[Target]) {
-        self.clear();
-        for target in targets {
-            let start = self.list.len();
-            self.list.extend(target.particles.iter().map(|s| Particle {
-                rect: Rect::from(s.state),
-                velocity: s.velocity * TICKS_PER_SECOND,
-                fitness: s.fitness,
-            }));
-            self.owners.push((target.life.id, start..self.list.len()));
-        }
-    }
-
-    fn of(&self, id: u64) -> &[Particle] {
-        match self.owners.binary_search_by_key(&id, |(owner, _)| *owner) {
-            Ok(at) => &self.list[self.owners[at].1.clone()],
-            Err(_) => &[],
-        }
+        self.work.particles.of(id, &self.memory.targets)
     }
 }

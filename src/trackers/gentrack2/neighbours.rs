@@ -8,9 +8,6 @@ use crate::geometry::{Rect, State};
 pub struct Neighbours {
     first: Vec<u32>,
     list: Vec<u32>,
-    sweep: OverlapSweep,
-    areas: Vec<Rect>,
-    points: Vec<Rect>,
 }
 
 /// Half the side of the box that stands for a point in the sweep, in pixels.
@@ -19,18 +16,15 @@ const POINT: f64 = 0.5;
 impl Neighbours {
     /// Finds for each state with `wanted` the others within `radius` diagonals of its own box, by the distance over
     /// all four components. The others get an empty list.
-    pub fn search(&mut self, states: &[State], radius: f64, wanted: impl Fn(usize) -> bool) {
+    pub fn search(&mut self, sweep: &mut OverlapSweep, states: &[State], radius: f64, wanted: impl Fn(usize) -> bool) {
         let square = |s: &State, half: f64| Rect::new(s.u - half, s.v - half, 2.0 * half, 2.0 * half);
-        self.areas.clear();
-        self.areas.extend(states.iter().enumerate().map(|(i, s)| match wanted(i) {
+        let areas = states.iter().enumerate().map(|(i, s)| match wanted(i) {
             true => square(s, radius * s.diagonal() + POINT),
             false => Rect::default(),
-        }));
-        self.points.clear();
-        self.points.extend(states.iter().map(|s| square(s, POINT)));
+        });
+        let pairs = sweep.between(areas, states.iter().map(|s| square(s, POINT))).pairs;
         self.first.clear();
         self.list.clear();
-        let pairs = self.sweep.pairs(&self.areas, &self.points);
         let mut at = 0;
         for (i, state) in states.iter().enumerate() {
             self.first.push(self.list.len() as u32);
@@ -67,7 +61,7 @@ mod tests {
             State::new(-51.0, 0.0, 30.0, 40.0),
         ];
         let mut neighbours = Neighbours::default();
-        neighbours.search(&states, 1.0, |_| true);
+        neighbours.search(&mut OverlapSweep::default(), &states, 1.0, |_| true);
         // 0 sees 2 (49 < 50), not 1 (64) and not 3 (51); 1 sees 0 (64 < 100) and 2 (sqrt(40^2+49^2+30^2+40^2) = 80.6);
         // and 3 at sqrt(91^2+30^2+40^2) = 103.8 not.
         assert_eq!(neighbours.of(0), [2]);
@@ -80,9 +74,9 @@ mod tests {
     fn the_expanded_search_finds_more_and_only_for_those_who_ask() {
         let states = [State::new(0.0, 0.0, 30.0, 40.0), State::new(60.0, 0.0, 30.0, 40.0)];
         let mut neighbours = Neighbours::default();
-        neighbours.search(&states, 1.0, |_| true);
+        neighbours.search(&mut OverlapSweep::default(), &states, 1.0, |_| true);
         assert!(neighbours.of(0).is_empty());
-        neighbours.search(&states, 2.0, |i| i == 0);
+        neighbours.search(&mut OverlapSweep::default(), &states, 2.0, |i| i == 0);
         assert_eq!(neighbours.of(0), [1]);
         assert!(neighbours.of(1).is_empty());
     }

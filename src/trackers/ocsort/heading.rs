@@ -20,7 +20,11 @@ impl Direction {
     /// From the centre of one box to that of another.
     pub fn between(from: &Rect, to: &Rect) -> Self {
         let (from, to) = (State::from(*from), State::from(*to));
-        let (x, y) = (to.u - from.u, to.v - from.v);
+        Self::of(to.u - from.u, to.v - from.v)
+    }
+
+    /// Of a vector.
+    fn of(x: f64, y: f64) -> Self {
         let length = (x * x + y * y).sqrt() + EPSILON;
         Self { x: x / length, y: y / length }
     }
@@ -28,33 +32,36 @@ impl Direction {
     /// Turns with the camera.
     pub fn turned(&self, motion: &CameraMotion) -> Self {
         let (x, y) = motion.apply_vector(self.x, self.y);
-        let length = (x * x + y * y).sqrt() + EPSILON;
-        Self { x: x / length, y: y / length }
+        Self::of(x, y)
     }
 }
 
 /// Where a track came from and which way it went.
 #[derive(Clone, Copy, Debug)]
 pub struct Heading {
-    /// The observation looked back to.
-    pub from: Rect,
-    /// The track's direction.
-    pub direction: Direction,
+    /// Centre of the observation looked back to.
+    from: (f64, f64),
+    direction: Direction,
 }
 
 impl Heading {
-    /// Whether a detection lies rather ahead than behind.
-    pub fn faces(&self, detected: &Rect) -> bool {
-        let (from, to) = (State::from(self.from), State::from(*detected));
-        self.direction.x * (to.u - from.u) + self.direction.y * (to.v - from.v) > 0.0
+    /// Of a track that went in this direction, seen from an earlier observation.
+    pub fn new(from: &Rect, direction: Direction) -> Self {
+        let from = State::from(*from);
+        Self { from: (from.u, from.v), direction }
+    }
+
+    /// Cosine of the angle between the track's direction and the one to the detection.
+    pub fn cosine(&self, detected: &Rect) -> f64 {
+        let to = State::from(*detected);
+        let towards = Direction::of(to.u - self.from.0, to.v - self.from.1);
+        self.direction.x * towards.x + self.direction.y * towards.y
     }
 
     /// How well a detection lies in the direction of the track, in `[-1/2, 1/2]`: straight on is 1/2, back is -1/2.
     pub fn consistency(&self, detected: &Rect) -> f64 {
-        let towards = Direction::between(&self.from, detected);
-        let cosine = self.direction.x * towards.x + self.direction.y * towards.y;
         // The library's own arc cosine has the same bits on every platform.
-        (FRAC_PI_2 - libm::acos(cosine.clamp(-1.0, 1.0))) / PI
+        (FRAC_PI_2 - libm::acos(self.cosine(detected).clamp(-1.0, 1.0))) / PI
     }
 }
 
@@ -65,13 +72,13 @@ mod tests {
     #[test]
     fn straight_on_is_a_half_and_across_is_nothing() {
         let at = |x: f64, y: f64| Rect::new(x, y, 10.0, 10.0);
-        let heading = Heading { from: at(0.0, 0.0), direction: Direction::between(&at(-30.0, 0.0), &at(0.0, 0.0)) };
+        let heading = Heading::new(&at(0.0, 0.0), Direction::between(&at(-30.0, 0.0), &at(0.0, 0.0)));
         let near = |a: f64, b: f64| (a - b).abs() < 1e-3;
         assert!(near(heading.consistency(&at(40.0, 0.0)), 0.5));
         assert!(near(heading.consistency(&at(40.0, 40.0)), 0.25));
         assert!(near(heading.consistency(&at(0.0, 40.0)), 0.0));
         assert!(near(heading.consistency(&at(-40.0, 0.0)), -0.5));
-        assert!(heading.faces(&at(40.0, 40.0)) && !heading.faces(&at(-1.0, 40.0)));
+        assert!(heading.cosine(&at(40.0, 40.0)) > 0.0 && heading.cosine(&at(-1.0, 40.0)) < 0.0);
         // Where it was there is no direction.
         assert!(near(heading.consistency(&at(0.0, 0.0)), 0.0));
     }

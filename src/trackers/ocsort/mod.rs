@@ -29,6 +29,7 @@ use crate::tracker::StepContext;
 
 use heading::Heading;
 use observed_track::{Observations, ObservedTrack};
+use reupdate::FrozenPool;
 
 /// The tracker.
 pub struct OcSort {
@@ -48,14 +49,13 @@ struct Workspace {
     views: Vec<View>,
     association: FullAssociation,
     spare: Vec<Observations>,
+    frozen: FrozenPool,
 }
 
 /// A track as it is before any association of the frame.
 #[derive(Clone, Copy)]
 struct View {
     predicted: Rect,
-    /// The latest observation; a box without a size before the first.
-    observed: Rect,
     heading: Option<Heading>,
     class: i32,
 }
@@ -66,19 +66,35 @@ impl OcSort {
         Self { parameters, tracks: Vec::new(), work: Workspace::default() }
     }
 
-    fn predict(&mut self, frame: &Frame<'_>, dt: f64, output: &mut Output) {
+    /// Moves the tracks on, and looks at them before any association. One walk over them: a large scene's do not fit into
+    /// the nearest memory.
+    fn predict(&mut self, frame: &Frame<'_>, context: &StepContext<'_>, output: &mut Output) {
         let motion = frame.camera_motion.as_ref().filter(|_| self.parameters.use_camera_motion);
-        for track in &mut self.tracks {
-            track.predict(dt);
+        let (work, delta_t) = (&mut self.work, self.parameters.delta_t as u64);
+        work.views.clear();
+        // A box without a size has no future.
+        let is_over = |track: &mut ObservedTrack| {
+            track.predict(context.elapsed);
             if let Some(motion) = motion {
                 track.follow_camera(motion);
             }
-        }
-        // A box without a size has no future.
-        for track in self.tracks.extract_if(.., |t| !is_sane(&t.filter.state())) {
+            let state = track.filter.state();
+            if !is_sane(&state) {
+                return true;
+            }
+            if !frame.detector_skipped {
+                track.run.next_frame(context.since_detector);
+                let (predicted, class) = (state.into(), track.life.last.class_id);
+                work.views.push(View { predicted, heading: track.heading(delta_t), class });
+            }
+            false
+        };
+        for track in self.tracks.extract_if(.., is_over) {
             output.ended.push(track.life.id);
-            self.work.spare.push(track.observations);
+            work.spare.push(track.retire(&mut work.frozen));
         }
+        work.unmatched.clear();
+        work.unmatched.extend(0..self.tracks.len() as u32);
     }
 
     fn split_by_score(&mut self, detections: &[Detection]) {
@@ -92,19 +108,6 @@ impl OcSort {
                 work.low.push(row);
             }
         }
-    }
-
-    fn look(&mut self) {
-        let (p, work) = (&self.parameters, &mut self.work);
-        work.unmatched.clear();
-        work.unmatched.extend(0..self.tracks.len() as u32);
-        work.views.clear();
-        work.views.extend(self.tracks.iter().map(|track| View {
-            predicted: track.filter.state().into(),
-            observed: track.observations.last_box(),
-            heading: track.heading(p.delta_t as u64),
-            class: track.life.last.class_id,
-        }));
     }
 
     /// Predictions with high scores: IoU, and how well the direction towards the detection goes with the track's own.
@@ -123,15 +126,15 @@ impl OcSort {
             let bound = |d: u32| 0.5 * p.inertia * detection(d).score;
             // Who went nowhere yet is as good for one as for another.
             let is_plain = |t: u32| view(t).heading.is_none() && context.classes.compares_all();
-            let can_gain = &|d: u32, t: u32| view(t).heading.as_ref().is_some_and(|h| h.faces(&detection(d).rect));
-            association.best_sum(&Extra { bonus, can_gain, bound, is_plain, allowed });
+            let rank = |d: u32, t: u32| view(t).heading.as_ref().map_or(0.0, |h| h.cosine(&detection(d).rect));
+            association.best_sum(&Extra { bonus, rank, bound, is_plain, allowed });
         }
         self.take_partners(detections, true);
     }
 
     /// The tracks left over with the low scores; what is left of these is forgotten.
     fn low_score_round(&mut self, detections: &[Detection], context: &StepContext<'_>) {
-        if self.parameters.use_byte && self.compare(detections, context, false, |view| view.predicted) {
+        if self.parameters.use_byte && self.compare(detections, context, false, |track| track.filter.state().into()) {
             self.take_partners(detections, false);
         }
     }
@@ -141,7 +144,7 @@ impl OcSort {
         if self.is_undefined(detections) {
             return;
         }
-        if self.compare(detections, context, true, |view| view.observed) {
+        if self.compare(detections, context, true, |track| track.observations.last_box()) {
             self.take_partners(detections, true);
         }
     }
@@ -152,7 +155,7 @@ impl OcSort {
         let work = &self.work;
         self.parameters.asso_func == Similarity::Iou
             && work.high.iter().any(|row| detections[*row as usize].rect.area() == 0.0)
-            && work.unmatched.iter().any(|track| work.views[*track as usize].observed.area() == 0.0)
+            && work.unmatched.iter().any(|t| self.tracks[*t as usize].observations.last_box().area() == 0.0)
     }
 
     /// Associates the tracks left over, at the boxes that `place` names, with detections; false if no pair is similar
@@ -162,16 +165,16 @@ impl OcSort {
         detections: &[Detection],
         context: &StepContext<'_>,
         high: bool,
-        place: impl Fn(&View) -> Rect,
+        place: impl Fn(&ObservedTrack) -> Rect,
     ) -> bool {
         let (p, work) = (&self.parameters, &mut self.work);
         let rows = if high { &work.high } else { &work.low };
-        let (views, unmatched, association) = (&work.views, &work.unmatched, &mut work.association);
-        let view = |t: u32| &views[unmatched[t as usize] as usize];
+        let (tracks, unmatched, association) = (&self.tracks, &work.unmatched, &mut work.association);
+        let track = |t: u32| &tracks[unmatched[t as usize] as usize];
         let detection = |d: u32| &detections[rows[d as usize] as usize];
-        let allowed = |d: u32, t: u32| context.classes.allows(view(t).class, detection(d).class_id);
+        let allowed = |d: u32, t: u32| context.classes.allows(track(t).life.last.class_id, detection(d).class_id);
         let boxes = rows.iter().map(|row| detections[*row as usize].rect);
-        let places = unmatched.iter().map(|t| place(&views[*t as usize]));
+        let places = unmatched.iter().map(|t| place(&tracks[*t as usize]));
         similarity::begin(p.asso_func, association, boxes, places, p.iou_threshold, allowed);
         if !association.has_hits() {
             return false;
@@ -187,7 +190,7 @@ impl OcSort {
         let partners = work.association.partners();
         for (&row, &slot) in rows.iter().zip(partners).filter(|(_, slot)| **slot != UNMATCHED) {
             let track = std::mem::replace(&mut work.unmatched[slot as usize], UNMATCHED);
-            self.tracks[track as usize].take(row, &detections[row as usize], p.delta_t as u64);
+            self.tracks[track as usize].take(row, &detections[row as usize], p.delta_t as u64, &mut work.frozen);
         }
         work.unmatched.retain(|track| *track != UNMATCHED);
         let mut partners = partners.iter();
@@ -206,37 +209,37 @@ impl OcSort {
 
 impl TrackingAlgorithm for OcSort {
     fn step(&mut self, frame: &Frame<'_>, context: &mut StepContext<'_>, output: &mut Output) {
-        self.predict(frame, context.elapsed, output);
+        self.predict(frame, context, output);
         if !frame.detector_skipped {
-            for track in &mut self.tracks {
-                track.run.next_frame(context.since_detector);
-            }
             self.split_by_score(frame.detections);
-            self.look();
             self.first_round(frame.detections, context);
             self.low_score_round(frame.detections, context);
             self.recovery_round(frame.detections, context);
             for &track in &self.work.unmatched {
-                self.tracks[track as usize].miss();
+                self.tracks[track as usize].miss(&mut self.work.frozen);
             }
             self.start_tracks(frame.detections, context);
-            for track in &mut self.tracks {
-                track.run.judge(self.parameters.min_hits, context.detector_frames);
-            }
         }
         let (max_age, rate) = (self.parameters.max_age, context.frame_rate);
-        let spare = &mut self.work.spare;
+        let (min_hits, detector_frames) = (self.parameters.min_hits, context.detector_frames);
+        let judge = |t: &mut ObservedTrack| match frame.detector_skipped {
+            true => (),
+            false => t.run.judge(min_hits, detector_frames),
+        };
+        let Workspace { spare, frozen, .. } = &mut self.work;
         list_and_remove(
             &mut self.tracks,
             output,
+            judge,
             |t| t.run.is_over(max_age),
             |t| t.shown(rate, !frame.detector_skipped),
-            |t| spare.push(t.observations),
+            |t| spare.push(t.retire(frozen)),
         );
     }
 
     fn reset(&mut self) {
-        self.work.spare.extend(self.tracks.drain(..).map(|t| t.observations));
+        let Workspace { spare, frozen, .. } = &mut self.work;
+        spare.extend(self.tracks.drain(..).map(|t| t.retire(frozen)));
     }
 
     #[cfg(feature = "snapshot")]

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use super::heading::{Direction, Heading};
-use super::reupdate::GapMemory;
+use super::reupdate::{FrozenPool, GapMemory};
 use crate::frame::{CameraMotion, Detection};
 use crate::geometry::{Rect, State};
 use crate::kalman::{AreaRatio, Measurement};
@@ -96,11 +96,11 @@ impl ObservedTrack {
 
     /// Where directions are reckoned from, and the track's own, once it has one.
     pub fn heading(&self, delta_t: u64) -> Option<Heading> {
-        Some(Heading { from: self.observations.look_back(self.age, delta_t)?, direction: self.direction? })
+        Some(Heading::new(&self.observations.look_back(self.age, delta_t)?, self.direction?))
     }
 
     /// Takes a detection.
-    pub fn take(&mut self, row: u32, detection: &Detection, delta_t: u64) {
+    pub fn take(&mut self, row: u32, detection: &Detection, delta_t: u64, pool: &mut FrozenPool) {
         if self.observations.counts()
             && let Some(from) = self.observations.look_back(self.age, delta_t)
         {
@@ -109,12 +109,18 @@ impl ObservedTrack {
         self.observations.add(self.age, detection, delta_t);
         self.life.take(row, detection);
         self.run.matched();
-        self.gap.correct(&mut self.filter, &Measurement::of(&detection.rect, EPSILON));
+        self.gap.correct(&mut self.filter, &Measurement::of(&detection.rect, EPSILON), pool);
     }
 
     /// Was not matched on a frame on which the detector ran.
-    pub fn miss(&mut self) {
-        self.gap.miss(&self.filter);
+    pub fn miss(&mut self, pool: &mut FrozenPool) {
+        self.gap.miss(&self.filter, pool);
+    }
+
+    /// Ends; what it holds serves the next ones.
+    pub fn retire(mut self, pool: &mut FrozenPool) -> Observations {
+        self.gap.forget(pool);
+        self.observations
     }
 
     /// As its caller sees it: seen, it is where it was observed.

@@ -5,8 +5,28 @@ use crate::frame::CameraMotion;
 use crate::geometry::State;
 use crate::kalman::{AreaRatio, Measurement};
 
+/// The filter as it was predicted to the first missed frame, with steps and time at that frame.
+type Frozen = (AreaRatio, u32, f64);
+
+/// Memory for frozen filters. They are large and few: beside the tracks, whose list is walked several times a step, they are
+/// out of the way.
+#[derive(Default)]
+pub struct FrozenPool(#[allow(clippy::vec_box, reason = "the boxes are what is kept")] Vec<Box<Frozen>>);
+
+impl FrozenPool {
+    fn put(&mut self, frozen: Frozen) -> Box<Frozen> {
+        match self.0.pop() {
+            Some(mut place) => {
+                *place = frozen;
+                place
+            }
+            None => Box::new(frozen),
+        }
+    }
+}
+
 /// What a filter needs to remember for it.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Debug, Default)]
 #[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct GapMemory {
     /// The last measurement given to the filter.
@@ -14,8 +34,7 @@ pub struct GapMemory {
     /// Steps and time since then.
     steps: u32,
     time: f64,
-    /// The filter as it was predicted to the first missed frame, with steps and time at that frame.
-    frozen: Option<(AreaRatio, u32, f64)>,
+    frozen: Option<Box<Frozen>>,
 }
 
 impl GapMemory {
@@ -26,18 +45,24 @@ impl GapMemory {
     }
 
     /// The track was missed.
-    pub fn miss(&mut self, filter: &AreaRatio) {
+    pub fn miss(&mut self, filter: &AreaRatio, pool: &mut FrozenPool) {
         if self.last.is_some() && self.frozen.is_none() {
-            self.frozen = Some((*filter, self.steps, self.time));
+            self.frozen = Some(pool.put((*filter, self.steps, self.time)));
         }
     }
 
+    /// The gap is over: gives back what was frozen.
+    pub fn forget(&mut self, pool: &mut FrozenPool) {
+        pool.0.extend(self.frozen.take());
+    }
+
     /// Gives a measurement to the filter, after reliving the gap if there was one.
-    pub fn correct(&mut self, filter: &mut AreaRatio, z: &Measurement) {
-        if let (Some((frozen, steps, time)), Some(from)) = (self.frozen.take(), self.last) {
-            *filter = frozen;
-            self.relive(filter, &from, &z.state(), steps, time);
+    pub fn correct(&mut self, filter: &mut AreaRatio, z: &Measurement, pool: &mut FrozenPool) {
+        if let (Some(frozen), Some(from)) = (&self.frozen, self.last) {
+            *filter = frozen.0;
+            self.relive(filter, &from, &z.state(), (frozen.1, frozen.2));
         }
+        self.forget(pool);
         // After a gap the measurement counts twice: the last of the line is the same.
         filter.correct(z);
         *self = Self { last: Some(z.state()), ..Self::default() };
@@ -45,7 +70,7 @@ impl GapMemory {
 
     /// Corrections and steps in turns, from the first missed frame to this one. The corrections lie on a line in centre,
     /// width and height.
-    fn relive(&self, filter: &mut AreaRatio, from: &State, to: &State, steps: u32, time: f64) {
+    fn relive(&self, filter: &mut AreaRatio, from: &State, to: &State, (steps, time): (u32, f64)) {
         let more = self.steps - steps;
         let dt = if more > 0 { (self.time - time) / more as f64 } else { 0.0 };
         for i in 0..=more {
@@ -63,8 +88,8 @@ impl GapMemory {
         if let Some(last) = &mut self.last {
             *last = motion.apply_state(last);
         }
-        if let Some((filter, ..)) = &mut self.frozen {
-            filter.follow_camera(motion);
+        if let Some(frozen) = &mut self.frozen {
+            frozen.0.follow_camera(motion);
         }
     }
 }

@@ -4,20 +4,14 @@
 //! smaller side assigned. Where the value of a pair is its IoU, pairs that do not overlap add nothing, so the best set
 //! of overlapping pairs is part of the optimum and the others need not be looked at. Where something is added to the
 //! IoU, [`FullAssociation::best_sum`] looks at the pairs that can matter: most follow from the overlaps alone
-//! ([`CertainPairs`]), and only if some do not are those left over compared each with each.
+//! ([`CertainPairs`]), and only if some do not are those left over compared ([`OpenPairs`]).
 
 use crate::assignment::{Assignment, Edge, UNMATCHED, refill};
 use crate::geometry::Rect;
 use crate::trackers::overlaps::{Extent, Overlap, Overlaps, fill_edges};
 
 use super::certain_pairs::CertainPairs;
-
-/// Price of leaving a detection out: more than any pair can be worth, so that the smaller side is assigned as a whole.
-const LEFT_OUT: f64 = 1e3;
-
-/// Most pairs looked at besides those that overlap. No scene has that many, but hostile input has, and all its pairs
-/// do not fit into memory.
-const MOST_EXTRA: usize = 1 << 22;
+use super::open_pairs::{MOST_EXTRA, OpenPairs};
 
 /// Whether there are too many pairs to look at them all.
 pub fn too_many(detections: usize, tracks: usize) -> bool {
@@ -25,11 +19,11 @@ pub fn too_many(detections: usize, tracks: usize) -> bool {
 }
 
 /// What is added to the IoU.
-pub struct Extra<'a, B, L, P, A> {
+pub struct Extra<B, R, L, P, A> {
     /// The addition, for a detection and a track.
     pub bonus: B,
-    /// Whether it is more than 0, which may be quicker to tell.
-    pub can_gain: &'a dyn Fn(u32, u32) -> bool,
+    /// What it grows with, for a detection over the tracks, and has the sign of: quicker to tell.
+    pub rank: R,
     /// Its largest amount over all tracks, for a detection.
     pub bound: L,
     /// Whether it is 0 for a track and every detection, and every detection is allowed.
@@ -53,13 +47,8 @@ pub struct FullAssociation {
     values: Vec<f64>,
     certain: CertainPairs,
     fixed: Vec<u32>,
-    /// The tracks whose pair is not certain, but for those that stand for any other.
-    open: Vec<u32>,
-    plain: Vec<u32>,
     touched: Vec<bool>,
-    /// Where the bonuses of a detection with all open tracks begin, if they are looked at.
-    whole: Vec<u32>,
-    bonuses: Vec<f64>,
+    open: OpenPairs,
     edges: Vec<Edge>,
     solver: Assignment,
     partners: Vec<u32>,
@@ -140,9 +129,10 @@ impl FullAssociation {
     }
 
     /// Matches by the largest sum of IoU and `bonus`.
-    pub fn best_sum<B, L, P, A>(&mut self, extra: &Extra<'_, B, L, P, A>)
+    pub fn best_sum<B, R, L, P, A>(&mut self, extra: &Extra<B, R, L, P, A>)
     where
         B: Fn(u32, u32) -> f64,
+        R: Fn(u32, u32) -> f64,
         L: Fn(u32) -> f64,
         P: Fn(u32) -> bool,
         A: Fn(u32, u32) -> bool,
@@ -158,7 +148,8 @@ impl FullAssociation {
         let is_spare = |t: &u32| !self.touched[*t as usize] && (extra.is_plain)(*t);
         let spare = (0..self.tracks as u32).filter(is_spare).count();
         if !self.certain.find(sizes, pairs, values, most, spare, threshold, &mut self.fixed) {
-            self.compare_the_rest(extra);
+            let eager = |row: usize| self.row_hits[row] == 0;
+            self.open.solve(&self.pairs, &self.values, self.tracks, eager, extra, &mut self.fixed);
         }
         // The pairs that overlap too little are dropped.
         for p in self.pairs.iter().filter(|p| p.iou >= self.threshold) {
@@ -168,120 +159,9 @@ impl FullAssociation {
         }
     }
 
-    /// Solves for the detections and tracks whose pairs are not certain, and adds them to those that are.
-    fn compare_the_rest<B, L, P, A>(&mut self, extra: &Extra<'_, B, L, P, A>)
-    where
-        B: Fn(u32, u32) -> f64,
-        L: Fn(u32) -> f64,
-        P: Fn(u32) -> bool,
-        A: Fn(u32, u32) -> bool,
-    {
-        let left_out = self.list_open(&extra.is_plain);
-        refill(&mut self.whole, self.partners.len(), UNMATCHED);
-        self.bonuses.clear();
-        for row in 0..self.partners.len() {
-            if self.row_hits[row] == 0 {
-                self.look_at_all(row, extra, left_out);
-            }
-        }
-        loop {
-            self.collect_edges(left_out);
-            self.solver.solve(self.partners.len(), self.tracks, &self.edges, left_out);
-            // The solution is that of all pairs if the solver's prices leave no pair that was left out a gain, which a
-            // detection's own price tells: those of the tracks are never positive.
-            let mut is_best = true;
-            for row in 0..self.partners.len() {
-                let price = self.solver.row_potential()[row];
-                let can_gain = price > -(extra.bound)(row as u32);
-                if can_gain && self.fixed[row] == UNMATCHED && self.whole[row] == UNMATCHED {
-                    self.look_at_all(row, extra, left_out);
-                    is_best &= self.whole[row] == UNMATCHED;
-                }
-            }
-            if is_best {
-                break;
-            }
-        }
-        for (fixed, column) in self.fixed.iter_mut().zip(self.solver.column_of_row()) {
-            *fixed = (*fixed).min(*column);
-        }
-    }
-
-    /// Lists the open tracks, and returns the price of leaving a detection out. Where the plain tracks that overlap no
-    /// open detection would do for all detections, each can have one at a price of 0: they need not be listed.
-    fn list_open(&mut self, is_plain: &impl Fn(u32) -> bool) -> f64 {
-        let taken = &mut self.column_hits;
-        refill(taken, self.tracks, 0);
-        self.fixed.iter().filter(|c| **c != UNMATCHED).for_each(|c| taken[*c as usize] = 1);
-        refill(&mut self.touched, self.tracks, false);
-        for p in self.pairs.iter().filter(|p| self.fixed[p.row as usize] == UNMATCHED) {
-            self.touched[p.column as usize] = true;
-        }
-        let is_open = |c: &u32| taken[*c as usize] == 0;
-        self.plain.clear();
-        self.plain.extend((0..self.tracks as u32).filter(|c| is_open(c) && is_plain(*c)));
-        let free = self.plain.iter().filter(|c| !self.touched[**c as usize]).count();
-        let enough = free >= self.fixed.iter().filter(|c| **c == UNMATCHED).count();
-        self.open.clear();
-        self.open.extend((0..self.tracks as u32).filter(|c| is_open(c) && !(enough && is_plain(*c))));
-        if enough { 0.0 } else { LEFT_OUT }
-    }
-
     /// For each detection its track or [`UNMATCHED`].
     pub fn partners(&self) -> &[u32] {
         &self.partners
-    }
-
-    /// Lists the bonuses of a detection with all open tracks, as far as there is room. Where it can be left out at no
-    /// price, only gains are of interest.
-    fn look_at_all<B, L, P, A>(&mut self, row: usize, extra: &Extra<'_, B, L, P, A>, left_out: f64)
-    where
-        B: Fn(u32, u32) -> f64,
-        L: Fn(u32) -> f64,
-        P: Fn(u32) -> bool,
-        A: Fn(u32, u32) -> bool,
-    {
-        if self.fixed[row] == UNMATCHED && self.bonuses.len() + self.open.len() <= MOST_EXTRA {
-            self.whole[row] = self.bonuses.len() as u32;
-            let row = row as u32;
-            let is_of_use = |c: u32| (extra.allowed)(row, c) && (left_out > 0.0 || (extra.can_gain)(row, c));
-            let value = |c: &u32| if is_of_use(*c) { (extra.bonus)(row, *c) } else { f64::NEG_INFINITY };
-            self.bonuses.extend(self.open.iter().map(value));
-        }
-    }
-
-    /// The pairs of the open detections with open tracks: those that overlap, and all of those that are looked at whole.
-    fn collect_edges(&mut self, left_out: f64) {
-        let taken = &self.column_hits;
-        self.edges.clear();
-        let mut pairs = self.pairs.iter().zip(&self.values).peekable();
-        for row in 0..self.partners.len() as u32 {
-            let of_row = std::iter::from_fn(|| pairs.next_if(|(p, _)| p.row == row));
-            if self.fixed[row as usize] != UNMATCHED {
-                of_row.for_each(drop);
-                continue;
-            }
-            let overlapping = of_row.filter(|(p, _)| taken[p.column as usize] == 0);
-            let overlapping = overlapping.map(|(p, v)| Edge { row, column: p.column, cost: -v });
-            let start = self.whole[row as usize];
-            if start == UNMATCHED {
-                self.edges.extend(overlapping);
-                continue;
-            }
-            let bonuses = &self.bonuses[start as usize..][..self.open.len()];
-            let mut overlapping = overlapping.peekable();
-            for (&column, bonus) in self.open.iter().zip(bonuses) {
-                while let Some(edge) = overlapping.next_if(|e| e.column < column) {
-                    self.edges.push(edge);
-                }
-                match overlapping.next_if(|e| e.column == column) {
-                    Some(edge) => self.edges.push(edge),
-                    None if -bonus <= left_out => self.edges.push(Edge { row, column, cost: -bonus }),
-                    None => (),
-                }
-            }
-            self.edges.extend(overlapping);
-        }
     }
 
     /// Drops the pairs that overlap too little.
@@ -379,8 +259,7 @@ mod tests {
             let bonus = |d: u32, t: u32| if is_plain(t) { 0.0 } else { raw[8 * d as usize + t as usize] };
             let mut association = FullAssociation::default();
             association.begin(boxes(&detections), boxes(&tracks), threshold, |_, _| true);
-            let can_gain = &|d: u32, t: u32| bonus(d, t) > 0.0;
-            association.best_sum(&Extra { bonus, can_gain, bound: |_| 0.1, is_plain, allowed: |_, _| true });
+            association.best_sum(&Extra { bonus, rank: bonus, bound: |_| 0.1, is_plain, allowed: |_, _| true });
             let iou = |d: usize, t: usize| {
                 Rect::new(detections[d], 0.0, 10.0, 10.0).iou(&Rect::new(tracks[t], 0.0, 10.0, 10.0))
             };

@@ -3,6 +3,7 @@
 
 mod certain_pairs;
 mod full_association;
+mod open_pairs;
 mod run;
 
 pub use full_association::{Extra, FullAssociation, too_many};
@@ -10,17 +11,28 @@ pub use run::Run;
 
 use crate::track::{Output, Track};
 
-/// Walks the tracks from the newest to the oldest: lists those that stay, ends those that go.
+/// Judges the tracks from the newest to the oldest: lists those that stay, ends those that go. One walk, for in a large
+/// scene it is the walks over the tracks that take time.
 pub fn list_and_remove<T>(
     tracks: &mut Vec<T>,
     output: &mut Output,
+    judge: impl Fn(&mut T),
     is_over: impl Fn(&T) -> bool,
     shown: impl Fn(&T) -> (Track, bool),
     mut retire: impl FnMut(T),
 ) {
-    for track in tracks.iter().rev().filter(|t| !is_over(t)) {
-        let (track, reported) = shown(track);
-        output.list(track, reported);
+    let mut all_stay = true;
+    for track in tracks.iter_mut().rev() {
+        judge(track);
+        if is_over(track) {
+            all_stay = false;
+        } else {
+            let (track, reported) = shown(track);
+            output.list(track, reported);
+        }
+    }
+    if all_stay {
+        return;
     }
     for track in tracks.extract_if(.., |t| is_over(t)) {
         output.ended.push(shown(&track).0.id);

@@ -1,0 +1,160 @@
+//! Overlapping boxes of many, where few boxes lie above each other anywhere: columns are put into the cells of a grid that
+//! they meet, and each row looks into its own. Rows come in order, so that only their few partners have to be sorted.
+
+use std::ops::Range;
+
+use crate::assignment::refill;
+use crate::geometry::Rect;
+
+use super::column::Column;
+
+/// Sides of a cell in mean sides of a box: in smaller cells boxes are listed more often, in larger ones more are looked at.
+const CELL: f64 = 1.5;
+/// Cells per box, at most.
+const CELLS_PER_BOX: f64 = 2.0;
+/// Cells that a box may meet, on average, and boxes that a row may look at.
+const MOST_CELLS: usize = 16;
+const MOST_LOOKS: usize = 512;
+
+/// The search, with buffers that are reused from call to call.
+#[derive(Clone, Debug, Default)]
+pub struct Grid {
+    /// Where each cell's columns begin in the list.
+    first: Vec<u32>,
+    list: Vec<Column>,
+    found: Vec<u32>,
+}
+
+/// Equal cells; the outermost go on for ever.
+#[derive(Clone, Copy, Debug)]
+struct Cells {
+    x: Axis,
+    y: Axis,
+}
+
+/// Equal intervals. A larger number never has a lower interval, whatever rounding does, so that boxes that overlap meet in a
+/// cell.
+#[derive(Clone, Copy, Debug)]
+struct Axis {
+    from: f64,
+    per_pixel: f64,
+    last: usize,
+}
+
+impl Axis {
+    /// The cast makes 0 of what is before all, and of NaN.
+    fn of(&self, x: f64) -> usize {
+        (((x - self.from) * self.per_pixel) as usize).min(self.last)
+    }
+}
+
+impl Cells {
+    /// Cells for these boxes, all of them with an area; none if there are no boxes, or if they are too far apart to tell.
+    fn new<'a>(boxes: impl Iterator<Item = &'a Rect>) -> Option<Self> {
+        let (mut left, mut right, mut top, mut bottom) =
+            (f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY);
+        let (mut width, mut height, mut count) = (0.0, 0.0, 0.0);
+        for rect in boxes {
+            left = left.min(rect.left);
+            right = right.max(rect.left);
+            top = top.min(rect.top);
+            bottom = bottom.max(rect.top);
+            width += rect.width;
+            height += rect.height;
+            count += 1.0;
+        }
+        let sides = |length: f64, total: f64| (length * count / (CELL * total)).max(1.0);
+        let (across, down) = (sides(right - left, width), sides(bottom - top, height));
+        let coarser = (across * down / (CELLS_PER_BOX * count)).max(1.0).sqrt();
+        let axis = |from: f64, length: f64, cells: f64| {
+            let cells = (cells / coarser).max(1.0);
+            Axis { from, per_pixel: cells / length, last: cells as usize }
+        };
+        // A long row of boxes has its cells along it, not more of them.
+        let cells = Self { x: axis(left, right - left, across), y: axis(top, bottom - top, down) };
+        let is_sound = cells.x.per_pixel.is_finite() && cells.y.per_pixel.is_finite();
+        (is_sound && (cells.count() as f64) < 4.0 * CELLS_PER_BOX * count + 64.0).then_some(cells)
+    }
+
+    fn count(&self) -> usize {
+        (self.x.last + 1).saturating_mul(self.y.last + 1)
+    }
+
+    /// The cells that a box meets: of some lines of cells so many, one after the other.
+    fn of(&self, rect: &Rect) -> impl Iterator<Item = Range<usize>> + use<> {
+        let (left, right) = (self.x.of(rect.left), self.x.of(rect.right()));
+        let (top, bottom) = (self.y.of(rect.top), self.y.of(rect.bottom()));
+        let across = self.x.last + 1;
+        (top..=bottom).map(move |y| y * across + left..y * across + right + 1)
+    }
+}
+
+impl Grid {
+    /// Adds the `(row, column)` whose boxes share an area, sorted by row, then column; gives up, and returns false, at a row
+    /// with more than `most` of them, or where boxes are so unlike, or lie so close, that cells are of no use.
+    pub fn add_pairs(&mut self, rows: &[Rect], columns: &[Rect], most: usize, pairs: &mut Vec<(u32, u32)>) -> bool {
+        let Some(cells) = Cells::new(columns.iter().filter(|c| c.area() > 0.0)) else { return false };
+        if !self.list_by_cell(columns, &cells) {
+            return false;
+        }
+        let mut looks = MOST_LOOKS * rows.len();
+        for (row, rect) in (0..).zip(rows).filter(|(_, r)| r.area() > 0.0) {
+            let mut count = 0;
+            for line in cells.of(rect) {
+                let listed = &self.list[self.first[line.start] as usize..self.first[line.end] as usize];
+                let Some(left_over) = looks.checked_sub(listed.len()) else { return false };
+                looks = left_over;
+                if self.found.len() < count + listed.len() {
+                    self.found.resize(count + listed.len(), 0);
+                }
+                for column in listed {
+                    // Written in any case, and written over if it was none.
+                    self.found[count] = column.index;
+                    count += usize::from(column.overlaps(rect));
+                }
+            }
+            // Boxes may meet in several cells.
+            let found = &mut self.found[..count];
+            found.sort_unstable();
+            let before = pairs.len();
+            pairs.extend(found.chunk_by(|a, b| a == b).map(|same| (row, same[0])));
+            if pairs.len() - before > most {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// Lists the columns by cell; false if they meet too many.
+    fn list_by_cell(&mut self, columns: &[Rect], cells: &Cells) -> bool {
+        let present = || (0..).zip(columns).filter(|(_, c)| c.area() > 0.0);
+        refill(&mut self.first, cells.count() + 1, 0);
+        let most = MOST_CELLS * columns.len();
+        let mut total = 0;
+        for (_, rect) in present() {
+            for line in cells.of(rect) {
+                total += line.len();
+                if total > most {
+                    return false;
+                }
+                self.first[line].iter_mut().for_each(|n| *n += 1);
+            }
+        }
+        // Each number says where its cell ends, and is counted down to where it begins.
+        let mut before = 0;
+        for n in &mut self.first {
+            before += *n;
+            *n = before;
+        }
+        refill(&mut self.list, total, Column::default());
+        for column in present() {
+            for line in cells.of(column.1) {
+                for next in &mut self.first[line] {
+                    *next -= 1;
+                    self.list[*next as usize] = Column::of(column);
+                }
+            }
+        }
+        true
+    }
+}
