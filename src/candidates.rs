@@ -347,6 +347,10 @@ mod tests {
             prop_assert_eq!(sweep.pairs(&rows, &columns), &expected[..]);
             sweep.limited_pairs(&columns, &rows, 1000);
             prop_assert_eq!(sweep.limited_pairs(&rows, &columns, 1000), &expected[..]);
+            let mut found = Vec::new();
+            if sweep.grid.add_pairs(&rows, &columns, 1000, &mut found) {
+                prop_assert_eq!(found, expected);
+            }
         }
     }
 

@@ -158,3 +158,38 @@ impl Grid {
         true
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// So many boxes of 10 x 10, as many in a line as there are lines, so far apart.
+    fn field(boxes: usize, apart: f64) -> Vec<Rect> {
+        let side = boxes.isqrt();
+        let at = |i: usize| Rect::new(apart * (i % side) as f64, apart * (i / side) as f64, 10.0, 10.0);
+        (0..boxes).map(at).collect()
+    }
+
+    #[test]
+    fn neighbours_in_a_field_are_found() {
+        // 8 apart each box meets itself and the eight around it.
+        let (boxes, mut pairs) = (field(900, 8.0), Vec::new());
+        assert!(Grid::default().add_pairs(&boxes, &boxes, 9, &mut pairs));
+        let of = |row: u32| pairs.iter().filter(|p| p.0 == row).map(|p| p.1).collect::<Vec<_>>();
+        assert_eq!(of(0), [0, 1, 30, 31]);
+        assert_eq!(of(31), [0, 1, 2, 30, 31, 32, 60, 61, 62]);
+        assert_eq!(pairs.len(), 9 * 28 * 28 + 4 * 6 * 28 + 4 * 4);
+        // No box may have so few partners.
+        assert!(!Grid::default().add_pairs(&boxes, &boxes, 8, &mut Vec::new()));
+    }
+
+    #[test]
+    fn it_gives_up_where_cells_are_of_no_use() {
+        let far = Rect::new(1e12, 1e12, 10.0, 10.0);
+        let one_cell: Vec<Rect> = field(900, 8.0).into_iter().chain([far]).collect();
+        assert!(!Grid::default().add_pairs(&one_cell, &one_cell, usize::MAX, &mut Vec::new()));
+        let wide = Rect::new(0.0, 0.0, 1e6, 1e6);
+        let many_cells: Vec<Rect> = field(900, 1000.0).into_iter().chain([wide; 60]).collect();
+        assert!(!Grid::default().add_pairs(&many_cells, &many_cells, usize::MAX, &mut Vec::new()));
+    }
+}
