@@ -107,6 +107,12 @@ static size_t count_of(const gt2_tracker *tracker, const scene *s) {
             gt2_particle_list particles = GT2_PARTICLE_LIST_INIT;
             CHECK_OK(gt2_tracker_particles(tracker, track->id, &particles));
             CHECK((particles.count > 0) == (strcmp(gt2_tracker_algorithm(tracker), "gentrack2") == 0));
+            gt2_neighbourhood near = GT2_NEIGHBOURHOOD_INIT;
+            CHECK_OK(gt2_tracker_neighbourhood(tracker, track->id, &near));
+            CHECK(near.trusted_count <= near.count && (near.neighbours == NULL) == (near.count == 0));
+            if (track->detection_index >= 0 || strcmp(gt2_tracker_algorithm(tracker), "gentrack2") != 0) {
+                CHECK(near.count == 0 && near.rule == GT2_MOVE_NONE);
+            }
             CHECK(track->state >= GT2_TRACK_TENTATIVE && track->state <= GT2_TRACK_LOST);
             if (track->detection_index >= 0 && CHECK((size_t)track->detection_index < rows)) {
                 const gt2_detection *d = &s->detections[track->detection_index];

@@ -9,6 +9,7 @@ static void handles(void) {
     const gt2_frame frame = GT2_FRAME_INIT;
     gt2_track_list list = GT2_TRACK_LIST_INIT;
     gt2_particle_list particles = GT2_PARTICLE_LIST_INIT;
+    gt2_neighbourhood near = GT2_NEIGHBOURHOOD_INIT;
     const uint64_t *ids = zeros;
     size_t count = 77;
     CHECK_STATUS(gt2_tracker_new(NULL, &tracker), GT2_ERR_NULL_POINTER);
@@ -25,6 +26,7 @@ static void handles(void) {
     CHECK_STATUS(gt2_tracker_ended(NULL, &ids, &count), GT2_ERR_NULL_POINTER);
     CHECK_STATUS(gt2_tracker_track_of_detection(zero, &ids, &count), GT2_ERR_INVALID_HANDLE);
     CHECK_STATUS(gt2_tracker_particles(none, 1, &particles), GT2_ERR_INVALID_HANDLE);
+    CHECK_STATUS(gt2_tracker_neighbourhood(none, 1, &near), GT2_ERR_INVALID_HANDLE);
     CHECK(gt2_tracker_algorithm(none) == NULL && gt2_tracker_algorithm(NULL) == NULL);
     CHECK(ids == zeros && count == 77); /* outputs are written on success only */
     gt2_tracker_free(NULL);
@@ -44,6 +46,9 @@ static void handles(void) {
     CHECK_STATUS(gt2_tracker_particles(tracker, 1, &particles), GT2_ERR_UNKNOWN_TRACK);
     CHECK_MESSAGE("no live track has id 1");
     CHECK_STATUS(gt2_tracker_particles(tracker, 0, &particles), GT2_ERR_UNKNOWN_TRACK);
+    CHECK_STATUS(gt2_tracker_neighbourhood(tracker, 1, &near), GT2_ERR_UNKNOWN_TRACK);
+    CHECK_MESSAGE("no live track has id 1");
+    CHECK_STATUS(gt2_tracker_neighbourhood(NULL, 1, &near), GT2_ERR_NULL_POINTER);
     /* Before the first step everything is empty. */
     for (int32_t kind = GT2_TRACKS_REPORTED; kind <= GT2_TRACKS_LOST; kind++) {
         list = tracks_of(tracker, kind);

@@ -109,10 +109,51 @@ static void particles(void) {
     gt2_tracker_free(tracker);
 }
 
+/* Three people walk abreast, 3 pixels per frame; the one in the middle is not seen any more. */
+static void neighbourhood(void) {
+    gt2_tracker *tracker = new_tracker();
+    for (int t = 0; t < 25; t++) {
+        gt2_detection detections[3];
+        for (int i = 0; i < 3; i++) {
+            detections[i] = scene_detection(100.0 + 40.0 * i + 3.0 * t, 100.0, 40.0, 100.0);
+        }
+        if (t >= 20) detections[1] = detections[2];
+        gt2_frame frame = frame_of(detections, t < 20 ? 3 : 2);
+        CHECK_OK(gt2_tracker_step(tracker, &frame));
+        gt2_neighbourhood near = GT2_NEIGHBOURHOOD_INIT;
+        CHECK_OK(gt2_tracker_neighbourhood(tracker, 1, &near));
+        CHECK(near.neighbours == NULL && near.count == 0 && near.rule == GT2_MOVE_NONE);
+        CHECK_OK(gt2_tracker_neighbourhood(tracker, 2, &near));
+        if (t < 20) {
+            CHECK(near.neighbours == NULL && near.rule == GT2_MOVE_NONE);
+            continue;
+        }
+        CHECK(near.struct_size == sizeof near && near.reserved == 0);
+        if (!CHECK(near.count == 2 && near.trusted_count == 2)) continue;
+        CHECK(near.neighbours[0] == 1 && near.neighbours[1] == 3);
+        CHECK(near.rule == GT2_MOVE_WITH_NEIGHBOURS);
+        /* Between the two, at their speed: 3 pixels per frame are 90 per second. */
+        CHECK(fabs(near.centre_u - (160.0 + 3.0 * t)) < 2.0 && fabs(near.centre_v - 150.0) < 2.0);
+        CHECK(fabs(near.displacement_u - 3.0) < 0.5 && fabs(near.displacement_v) < 0.5);
+        CHECK(fabs(near.velocity_u - 90.0) < 10.0 && fabs(near.velocity_v) < 10.0);
+    }
+    gt2_neighbourhood wrong = GT2_NEIGHBOURHOOD_INIT;
+    wrong.struct_size = 1;
+    CHECK_STATUS(gt2_tracker_neighbourhood(tracker, 2, &wrong), GT2_ERR_STRUCT_SIZE);
+    CHECK_STATUS(gt2_tracker_neighbourhood(tracker, 2, NULL), GT2_ERR_NULL_POINTER);
+    /* A program of an older header gets what it knows. */
+    wrong.struct_size = offsetof(gt2_neighbourhood, trusted_count);
+    wrong.trusted_count = 77;
+    CHECK_OK(gt2_tracker_neighbourhood(tracker, 2, &wrong));
+    CHECK(wrong.count == 2 && wrong.trusted_count == 77);
+    gt2_tracker_free(tracker);
+}
+
 int main(void) {
     crossing();
     detector_skipped();
     camera_motion();
     particles();
+    neighbourhood();
     return check_result();
 }

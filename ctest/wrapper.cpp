@@ -95,6 +95,9 @@ void tracking() {
     CHECK(count == 2 && tracker.reported().size() == 2 && tracker.reported()[0].id == tracker.reported().begin()->id);
     CHECK(tracker.particles(1).size() == 8);
     CHECK(status_of([&] { tracker.particles(99); }) == GT2_ERR_UNKNOWN_TRACK);
+    const gentrack2::Neighbourhood near = tracker.neighbourhood(1);
+    CHECK(near.count == 0 && near.neighbours == nullptr && near.rule == GT2_MOVE_NONE);
+    CHECK(status_of([&] { tracker.neighbourhood(99); }) == GT2_ERR_UNKNOWN_TRACK);
     CHECK(status_of([&] { tracker.step(copy); }) == GT2_ERR_TIMESTAMP);
     detections[1].score = 2.0;
     CHECK(status_of([&] { tracker.step(gentrack2::Frame(detections)); }) == GT2_ERR_DETECTION);

@@ -226,6 +226,23 @@
 /// Kind of list: live tracks without a detection that are not reported, with their predicted box.
 #define GT2_TRACKS_LOST 2
 
+/// Rule that moved a track: none of those below; it has a detection, or its algorithm has no such rules.
+#define GT2_MOVE_NONE 0
+
+/// Rule that moved a track: it stays where it is, its speed being below the parameter still_speed.
+#define GT2_MOVE_STILL 1
+
+/// Rule that moved a track: its own velocity (eq. 12 of the paper), for want of trustworthy neighbours that move, or
+/// because it overtakes them.
+#define GT2_MOVE_OWN 2
+
+/// Rule that moved a track: the median displacement of its trustworthy neighbours (eq. 13, first case), which move as
+/// it does.
+#define GT2_MOVE_WITH_NEIGHBOURS 3
+
+/// Rule that moved a track: around its trustworthy neighbours (eq. 13, second case, and eq. 14), which move otherwise.
+#define GT2_MOVE_AROUND 4
+
 /// An algorithm with all its parameters, chosen and set by name. Made by `gt2_config_new` or `gt2_config_clone`,
 /// released by `gt2_config_free`. A tracker copies its config, so one config can serve many trackers.
 typedef struct gt2_config gt2_config;
@@ -438,6 +455,38 @@ typedef struct gt2_particle_list {
     size_t stride;
 } gt2_particle_list;
 
+/// The neighbours of a track that has no detection, and how they guided it (eq. 11 to 14 of the paper). The algorithm
+/// gentrack2 has such. Start from `GT2_NEIGHBOURHOOD_INIT`.
+typedef struct gt2_neighbourhood {
+    /// `sizeof(gt2_neighbourhood)`, set by the caller; 0 stands for the first published layout of this struct.
+    size_t struct_size;
+    /// Identities of the neighbours: tracks within neighbour_radius, or if nobody is, within neighbour_radius_expanded
+    /// (both are parameters). The trustworthy ones, which took a detection in this frame, come first. Some may have
+    /// ended in the same step. NULL if there are none.
+    const uint64_t *neighbours;
+    /// How many there are.
+    size_t count;
+    /// How many of them are trustworthy; if it is 0, the medians below are 0.
+    size_t trusted_count;
+    /// Median of the trustworthy neighbours' centres, to the right, in pixels.
+    double centre_u;
+    /// The same downwards.
+    double centre_v;
+    /// Median of what these centres moved by since the previous frame, to the right, in pixels; the camera's motion,
+    /// where it is given, is taken out.
+    double displacement_u;
+    /// The same downwards.
+    double displacement_v;
+    /// Median of the trustworthy neighbours' velocities to the right, in pixels per second.
+    double velocity_u;
+    /// The same downwards.
+    double velocity_v;
+    /// Which rule moved the track, one of `GT2_MOVE_...`.
+    int32_t rule;
+    /// 0.
+    int32_t reserved;
+} gt2_neighbourhood;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -639,6 +688,16 @@ gt2_status gt2_tracker_particles(const struct gt2_tracker *tracker,
                                  uint64_t id,
                                  struct gt2_particle_list *out);
 
+/// Tells in `*out`, whose `struct_size` the caller has set, which neighbours the live track `id` had in the last step
+/// and how they guided it, if it has no detection. Borrowed as in `gt2_tracker_tracks`. Empty for a track with a
+/// detection, for one that is kept without being moved, for algorithms without such guidance, and after
+/// `gt2_tracker_load` until the next step.
+///
+/// Errors: `GT2_ERR_NULL_POINTER`, `GT2_ERR_UNKNOWN_TRACK`, `GT2_ERR_STRUCT_SIZE`.
+gt2_status gt2_tracker_neighbourhood(const struct gt2_tracker *tracker,
+                                     uint64_t id,
+                                     struct gt2_neighbourhood *out);
+
 /// Writes everything that a tracker knows, its config included, to `buffer`, an array of `capacity` bytes, and stores
 /// the number of bytes in `*needed`, which may be NULL; with a `capacity` of 0 that is all it does. If the buffer is
 /// too small it stays as it is and `*needed` is stored all the same. `gt2_tracker_load` makes a tracker of the bytes
@@ -687,6 +746,9 @@ gt2_status gt2_tracker_load(const uint8_t *bytes,
 
 /// Initial values of a `gt2_particle_list`: empty.
 #define GT2_PARTICLE_LIST_INIT {sizeof(gt2_particle_list), NULL, 0, sizeof(gt2_particle)}
+
+/// Initial values of a `gt2_neighbourhood`: empty.
+#define GT2_NEIGHBOURHOOD_INIT {sizeof(gt2_neighbourhood), NULL, 0, 0, 0, 0, 0, 0, 0, 0, GT2_MOVE_NONE, 0}
 
 /// Initial values of a `gt2_parameter_info`.
 #define GT2_PARAMETER_INFO_INIT {sizeof(gt2_parameter_info), NULL, 0, 0, NULL, 0.0, 0.0, NULL, NULL, NULL, NULL, 0}

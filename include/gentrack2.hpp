@@ -51,6 +51,9 @@ using Image = gt2_image;
 using Track = gt2_track;
 /// A hypothesis of a track's box in pixels, with a fitness in 0..=1.
 using Particle = gt2_particle;
+/// The neighbours that guided a track without a detection, their median motion, and the rule that moved it. Its
+/// `neighbours` are borrowed from the tracker until its next step.
+using Neighbourhood = gt2_neighbourhood;
 /// Key, kind, default, range, unit and meaning of a parameter.
 using ParameterInfo = gt2_parameter_info;
 
@@ -462,6 +465,13 @@ public:
         gt2_particle_list list = GT2_PARTICLE_LIST_INIT;
         check(gt2_tracker_particles(get(), id, &list));
         return Particles(list.particles, list.count, list.stride);
+    }
+    /// The neighbours that guided the live track `id` in the last step if it has no detection; empty for tracks with one
+    /// and for algorithms without such guidance. Throws GT2_ERR_UNKNOWN_TRACK.
+    Neighbourhood neighbourhood(std::uint64_t id) const {
+        gt2_neighbourhood n = GT2_NEIGHBOURHOOD_INIT;
+        check(gt2_tracker_neighbourhood(get(), id, &n));
+        return n;
     }
     /// Name of the algorithm.
     std::string algorithm() const { return detail::check_text(gt2_tracker_algorithm(get())); }

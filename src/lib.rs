@@ -64,6 +64,6 @@ pub use error::Error;
 pub use frame::{CameraMotion, Detection, Embeddings, Frame};
 pub use geometry::Rect;
 pub use image::{ImageView, PixelFormat};
-pub use track::{Output, Particle, Track, TrackState};
+pub use track::{NeighbourMotion, Neighbourhood, Output, Particle, Track, TrackState, WeakMove};
 pub use tracker::Tracker;
 pub use trackers::Algorithm;

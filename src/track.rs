@@ -55,6 +55,47 @@ pub struct Particle {
     pub fitness: f64,
 }
 
+/// How a track without a detection was moved in the last step, of the rules of the paper.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum WeakMove {
+    /// By none of them: it has a detection, or its algorithm has no such rules.
+    #[default]
+    None,
+    /// It stays where it is, being slower than `tau_V`.
+    Still,
+    /// By its own velocity (eq. 12; also in eq. 13 where it overtakes).
+    Own,
+    /// By the median displacement of its trustworthy neighbours (eq. 13, first case).
+    WithNeighbours,
+    /// Around neighbours that move otherwise (eq. 13, second case, and 14).
+    Around,
+}
+
+/// Medians over the trustworthy neighbours of a track, component by component: of their centres, and of the motion of
+/// these.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NeighbourMotion {
+    /// Centre, u and v, in pixels of the current frame.
+    pub centre: (f64, f64),
+    /// Displacement of the centre since the previous frame in pixels, without the camera's motion.
+    pub displacement: (f64, f64),
+    /// Velocity of the centre in pixels per second.
+    pub velocity: (f64, f64),
+}
+
+/// What guided a track without a detection in the last step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Neighbourhood<'a> {
+    /// Identities of its neighbours, the trustworthy ones, which have a detection in this frame, first.
+    pub neighbours: &'a [u64],
+    /// How many of them are trustworthy.
+    pub trusted: usize,
+    /// Their motion; `None` if nobody is trustworthy.
+    pub motion: Option<NeighbourMotion>,
+    /// Which rule moved the track.
+    pub rule: WeakMove,
+}
+
 /// Results of one step, in buffers that are reused from step to step.
 #[derive(Clone, Debug, Default)]
 #[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::frame::Frame;
 #[cfg(feature = "snapshot")]
 use crate::snapshot::{self, Decoder, Encoder, SavedConfig};
-use crate::track::{Output, Particle};
+use crate::track::{Neighbourhood, Output, Particle};
 use crate::trackers::{Algorithm, TrackingAlgorithm};
 use crate::validation::{History, check_frame};
 
@@ -138,11 +138,20 @@ impl Tracker {
 
     /// The particles of a live track, as they were used in the last step; empty for algorithms without particles.
     pub fn particles(&self, id: u64) -> Result<&[Particle], Error> {
-        let live = [&self.output.reported, &self.output.tentative, &self.output.lost];
-        if !live.iter().any(|list| list.iter().any(|t| t.id == id)) {
-            return Err(Error::UnknownTrack(id));
-        }
+        self.check_live(id)?;
         Ok(self.inner.particles(id))
+    }
+
+    /// What guided the live track `id` in the last step if it has no detection: its neighbours and their motion. Empty
+    /// for tracks with one, for algorithms without neighbours, and after [`Tracker::load`] until the next step.
+    pub fn neighbourhood(&self, id: u64) -> Result<Neighbourhood<'_>, Error> {
+        self.check_live(id)?;
+        Ok(self.inner.neighbourhood(id))
+    }
+
+    fn check_live(&self, id: u64) -> Result<(), Error> {
+        let mut live = [&self.output.reported, &self.output.tentative, &self.output.lost].into_iter().flatten();
+        if live.any(|t| t.id == id) { Ok(()) } else { Err(Error::UnknownTrack(id)) }
     }
 
     /// Forgets everything but the configuration: the next step is as the first of a new tracker.

@@ -5,7 +5,7 @@ mod simulator;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use gentrack2::{Algorithm, Detection, Output, Rect, Track, Tracker};
+use gentrack2::{Algorithm, Detection, Neighbourhood, Output, Rect, Track, Tracker, WeakMove};
 use parade::crowd::{CLASSES, crowd};
 use parade::*;
 
@@ -276,5 +276,30 @@ fn particles_are_those_of_the_track_in_every_policy() {
         tracker.particles(77).expect_err("nobody has this id");
         tracker.reset();
         tracker.particles(1).expect_err("nobody is left");
+    }
+}
+
+#[test]
+fn neighbours_are_those_of_the_track_in_every_policy() {
+    for policy in POLICIES {
+        let mut tracker = tracker(Algorithm::GenTrack2, &[("class_policy", policy)]);
+        // Abreast, and the one in the middle is not seen from frame 20 on.
+        let walker = |x: f64| Walker::new(x, 100.0, (60.0, 0.0));
+        let walkers = [walker(100.0), walker(142.0).hidden(frame_time(20) - 0.01, 99.0), walker(184.0).of_class(1)];
+        let ids = play(&mut tracker, &walkers, 0..20, 1, |_, _| ()).track_of_detection.clone();
+        assert!(ids.iter().all(|id| *id != 0), "{policy}: {ids:?}");
+        for id in &ids {
+            assert_eq!(tracker.neighbourhood(*id).unwrap(), Neighbourhood::default(), "{policy}");
+        }
+        play(&mut tracker, &walkers, 20..22, 1, |_, _| ());
+        let found = tracker.neighbourhood(ids[1]).unwrap();
+        let expected = if policy == "separate" { vec![ids[0]] } else { vec![ids[0], ids[2]] };
+        assert_eq!(found.neighbours, expected, "{policy}: {found:?}");
+        assert_eq!((found.trusted, found.rule), (expected.len(), WeakMove::WithNeighbours), "{policy}");
+        let velocity = found.motion.unwrap().velocity;
+        assert!((velocity.0 - 60.0).abs() < 10.0 && velocity.1.abs() < 10.0, "{policy}: {velocity:?}");
+        tracker.neighbourhood(77).expect_err("nobody has this id");
+        tracker.reset();
+        tracker.neighbourhood(1).expect_err("nobody is left");
     }
 }

@@ -15,6 +15,7 @@ const SOURCES: &[&str] = &[
     "frame",
     "track",
     "particle",
+    "neighbourhood",
     "tracker",
     "snapshot",
 ];

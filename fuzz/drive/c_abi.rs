@@ -238,6 +238,8 @@ impl<'a> Caller<'a> {
         let mut buffer: [gt2_track; 4] = unsafe { std::mem::zeroed() };
         let mut needed = 0;
         let mut particles = gt2_particle_list { struct_size: 0, particles: null(), count: 0, stride: 0 };
+        // SAFETY: all zero is a legal neighbourhood.
+        let mut around: gt2_neighbourhood = unsafe { std::mem::zeroed() };
         let (kind, capacity) = (self.bytes.below(5) as i32 - 1, self.bytes.below(5));
         let element = *self.bytes.pick(&[size_of::<gt2_track>(), 0, 8, 5000]);
         let id = self.bytes.below(40) as u64;
@@ -245,6 +247,7 @@ impl<'a> Caller<'a> {
         unsafe {
             check(gt2_tracker_copy_tracks(tracker, kind, buffer.as_mut_ptr(), element, capacity, &mut needed));
             check(gt2_tracker_particles(tracker, id, &mut particles));
+            check(gt2_tracker_neighbourhood(tracker, id, &mut around));
         }
     }
 

@@ -7,6 +7,7 @@ use super::config::gt2_config;
 use super::frame::{gt2_frame, read_frame};
 use super::guard::{find_in, guard, guard_exclusive, guard_shared};
 use super::handle::{Handle, Header, borrow_mut, give, take};
+use super::neighbourhood::gt2_neighbourhood;
 use super::particle::{gt2_particle, gt2_particle_list};
 use super::pointer::{require, start, store};
 use super::status::*;
@@ -295,6 +296,27 @@ pub unsafe extern "C" fn gt2_tracker_particles(
     }
 }
 
+/// Tells in `*out`, whose `struct_size` the caller has set, which neighbours the live track `id` had in the last step
+/// and how they guided it, if it has no detection. Borrowed as in `gt2_tracker_tracks`. Empty for a track with a
+/// detection, for one that is kept without being moved, for algorithms without such guidance, and after
+/// `gt2_tracker_load` until the next step.
+///
+/// Errors: `GT2_ERR_NULL_POINTER`, `GT2_ERR_UNKNOWN_TRACK`, `GT2_ERR_STRUCT_SIZE`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gt2_tracker_neighbourhood(
+    tracker: *const gt2_tracker,
+    id: u64,
+    out: *mut gt2_neighbourhood,
+) -> gt2_status {
+    // SAFETY: a handle and an output by the contract of the header.
+    unsafe {
+        guard_shared(tracker, |t| {
+            let neighbourhood = t.tracker.neighbourhood(id)?;
+            structs::write(out, &gt2_neighbourhood::from(&neighbourhood))
+        })
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::detection::gt2_detection;
@@ -391,6 +413,8 @@ mod tests {
             assert_eq!(gt2_tracker_ended(tracker, &mut ids, &mut count), GT2_ERR_POISONED);
             assert_eq!(gt2_tracker_track_of_detection(tracker, &mut ids, &mut count), GT2_ERR_POISONED);
             assert_eq!(gt2_tracker_particles(tracker, 1, &mut particles), GT2_ERR_POISONED);
+            let mut around: gt2_neighbourhood = std::mem::zeroed();
+            assert_eq!(gt2_tracker_neighbourhood(tracker, 1, &mut around), GT2_ERR_POISONED);
             assert!(gt2_tracker_algorithm(tracker).is_null());
             assert_eq!((count, particles.count, needed), (7, 7, 7));
 

@@ -33,7 +33,7 @@ use crate::frame::Frame;
 use crate::parameters::ParameterSet;
 #[cfg(feature = "snapshot")]
 use crate::snapshot::{Decoder, Encoder};
-use crate::track::{Output, Particle};
+use crate::track::{Neighbourhood, Output, Particle};
 use crate::tracker::StepContext;
 
 /// What every algorithm can do.
@@ -56,6 +56,11 @@ pub trait TrackingAlgorithm: Send {
     /// The particles of a live track.
     fn particles(&self, _id: u64) -> &[Particle] {
         &[]
+    }
+
+    /// What guided a live track that has no detection.
+    fn neighbourhood(&self, _id: u64) -> Neighbourhood<'_> {
+        Neighbourhood::default()
     }
 }
 

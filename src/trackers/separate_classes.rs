@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::frame::{Detection, Embeddings, Frame};
 #[cfg(feature = "snapshot")]
 use crate::snapshot::{Decoder, Encoder};
-use crate::track::{Output, Particle, Track};
+use crate::track::{Neighbourhood, Output, Particle, Track, WeakMove};
 use crate::tracker::StepContext;
 
 /// Trackers of classes without live tracks are kept, with what they learnt of the scene, while there are no more
@@ -131,6 +131,11 @@ impl TrackingAlgorithm for SeparateClasses {
 
     fn particles(&self, id: u64) -> &[Particle] {
         self.classes.values().map(|c| c.inner.particles(id)).find(|p| !p.is_empty()).unwrap_or(&[])
+    }
+
+    fn neighbourhood(&self, id: u64) -> Neighbourhood<'_> {
+        let told = |n: &Neighbourhood<'_>| n.rule != WeakMove::None;
+        self.classes.values().map(|c| c.inner.neighbourhood(id)).find(told).unwrap_or_default()
     }
 }
 

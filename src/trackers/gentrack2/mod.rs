@@ -12,7 +12,7 @@
 //! | weak tracks, eq. 11-14 | [`weak_motion`], [`common_motion`], [`ageing`], [`covering`] |
 //! | removal, eq. 15 | [`removal`] |
 //! | velocity regression, eq. 16 | [`velocity_regression`] |
-//! | what is reported | [`coasting`], [`reporting`] |
+//! | what is reported | [`coasting`], [`reporting`], [`neighbourhoods`] |
 
 mod ageing;
 mod appearance_model;
@@ -23,6 +23,7 @@ mod data_association;
 mod fitness;
 mod flight;
 mod lent_particles;
+mod neighbourhoods;
 mod neighbours;
 mod new_tracks;
 mod observations;
@@ -49,7 +50,7 @@ use crate::frame::Frame;
 use crate::geometry::State;
 #[cfg(feature = "snapshot")]
 use crate::snapshot::{Decoder, Encoder};
-use crate::track::{Output, Particle};
+use crate::track::{Neighbourhood, Output, Particle};
 use crate::tracker::StepContext;
 use crate::trackers::TrackingAlgorithm;
 use crate::trackers::life::Life;
@@ -59,6 +60,7 @@ use common_motion::CommonMotion;
 use covering::Covering;
 use data_association::{DataAssociation, Sight};
 use lent_particles::LentParticles;
+use neighbourhoods::Neighbourhoods;
 use neighbours::Neighbours;
 use new_tracks::Births;
 use observations::Observations;
@@ -114,6 +116,7 @@ struct Workspace {
     states: Vec<State>,
     predictions: Vec<(State, State)>,
     particles: LentParticles,
+    neighbourhoods: Neighbourhoods,
 }
 
 impl Workspace {
@@ -216,6 +219,7 @@ impl GenTrack2 {
         let (neighbours, states) = (&work.neighbours, &work.states);
         let lonely = |i: usize| !targets[i].is_strong() && neighbours.of(i).is_empty();
         work.expanded.search(&mut work.sweep, states, p.neighbour_radius_expanded, lonely);
+        work.neighbourhoods.clear();
         let covered = work.covering.shares(&mut work.sweep, targets);
         let guess_motion = p.common_motion && frame.camera_motion.is_none();
         let shift = if guess_motion { work.common_motion.shift(targets) } else { (0.0, 0.0) };
@@ -228,10 +232,12 @@ impl GenTrack2 {
                 near => near,
             };
             let trusted = work.trusted.over(targets, near);
-            let target = &mut targets[index];
-            if !target.dormant {
-                target.state = weak_motion::moved(p, target, trusted.as_ref(), ticks);
+            if !targets[index].dormant {
+                let (state, rule) = weak_motion::moved(p, &targets[index], trusted.as_ref(), ticks);
+                work.neighbourhoods.note(targets, index, near, trusted.as_ref(), rule);
+                targets[index].state = state;
             }
+            let target = &mut targets[index];
             target.state.u += shift.0;
             target.state.v += shift.1;
             target.covered = target.covered.max(covered[index]);
@@ -357,6 +363,7 @@ impl TrackingAlgorithm for GenTrack2 {
         self.work.spare.append(&mut self.memory.targets);
         self.memory = Memory::default();
         self.work.particles.recall();
+        self.work.neighbourhoods.clear();
     }
 
     #[cfg(feature = "snapshot")]
@@ -368,10 +375,18 @@ impl TrackingAlgorithm for GenTrack2 {
     fn load(&mut self, state: &mut Decoder<'_>) -> Result<(), crate::Error> {
         self.memory = state.take()?;
         self.work.particles.recall();
+        self.work.neighbourhoods.clear();
         Ok(())
     }
 
     fn particles(&self, id: u64) -> &[Particle] {
         self.work.particles.of(id, &self.memory.targets)
+    }
+
+    fn neighbourhood(&self, id: u64) -> Neighbourhood<'_> {
+        // Who was found again after weak tracks were moved is none of them any more.
+        let found = self.memory.targets.binary_search_by_key(&id, |t| t.life.id);
+        let weak = found.is_ok_and(|slot| !self.memory.targets[slot].is_strong());
+        if weak { self.work.neighbourhoods.of(id) } else { Neighbourhood::default() }
     }
 }

@@ -3,6 +3,7 @@
 //! Only the centre moves; the size waits for the next detection, so it can neither shrink away nor grow.
 
 use crate::geometry::State;
+use crate::track::WeakMove;
 
 use super::parameters::{GenTrack2Parameters, WeakMotion};
 use super::target::Target;
@@ -47,32 +48,41 @@ impl TrustedMedian {
     }
 }
 
-/// The state of a weak track after `ticks`.
-pub fn moved(p: &GenTrack2Parameters, weak: &Target, trusted: Option<&Trusted>, ticks: f64) -> State {
+/// The state of a weak track after `ticks`, and by which rule it came there.
+pub fn moved(p: &GenTrack2Parameters, weak: &Target, trusted: Option<&Trusted>, ticks: f64) -> (State, WeakMove) {
     let still = p.still_speed * weak.state.diagonal();
     let own = (weak.velocity.u, weak.velocity.v);
     if length(own) < still {
-        return weak.state;
+        return (weak.state, WeakMove::Still);
     }
-    let (u, v) = match trusted.filter(|_| p.weak_motion == WeakMotion::Neighbours) {
+    let ((u, v), rule) = match trusted.filter(|_| p.weak_motion == WeakMotion::Neighbours) {
         Some(trusted) if length(trusted.velocity) >= still => with_neighbours(p, weak, own, trusted, ticks),
         // Eq. 12.
-        _ => add(centre(&weak.state), scale(own, ticks)),
+        _ => (add(centre(&weak.state), scale(own, ticks)), WeakMove::Own),
     };
-    State { u, v, ..weak.state }
+    (State { u, v, ..weak.state }, rule)
 }
 
 /// Eq. 13.
-fn with_neighbours(p: &GenTrack2Parameters, weak: &Target, own: Vector, trusted: &Trusted, ticks: f64) -> Vector {
+fn with_neighbours(
+    p: &GenTrack2Parameters,
+    weak: &Target,
+    own: Vector,
+    trusted: &Trusted,
+    ticks: f64,
+) -> (Vector, WeakMove) {
     let (speed, others) = (length(own), length(trusted.velocity));
     if dot(own, trusted.velocity) / (speed * others) >= p.delta_d {
         let together = speed.min(others) / speed.max(others) >= p.speed_ratio;
-        let step = if together { trusted.displacement } else { scale(own, ticks) };
-        return add(centre(&weak.state), step);
+        let (step, rule) = match together {
+            true => (trusted.displacement, WeakMove::WithNeighbours),
+            false => (scale(own, ticks), WeakMove::Own),
+        };
+        return (add(centre(&weak.state), step), rule);
     }
     let avoiding = avoid(p, weak, own, trusted, ticks);
     let best = centre(&weak.global_best);
-    add(scale(avoiding, 1.0 - p.sigma_g), scale(best, p.sigma_g))
+    (add(scale(avoiding, 1.0 - p.sigma_g), scale(best, p.sigma_g)), WeakMove::Around)
 }
 
 /// Eq. 14: obstacle avoidance. The push is across the line to the neighbours and against their motion.
@@ -147,7 +157,7 @@ mod tests {
     }
 
     fn position(p: &GenTrack2Parameters, weak: &Target, trusted: Option<&Trusted>) -> Vector {
-        let state = moved(p, weak, trusted, 1.0);
+        let (state, _) = moved(p, weak, trusted, 1.0);
         assert_eq!((state.w, state.h), (30.0, 40.0), "the size is frozen");
         (state.u, state.v)
     }
@@ -177,7 +187,7 @@ mod tests {
         let standing = Trusted { position: (9.0, 9.0), displacement: (0.5, 0.0), velocity: (0.9, 0.0) };
         assert_eq!(position(&p, &weak((3.0, 4.0)), Some(&standing)), (3.0, 4.0));
         // Two ticks go twice as far.
-        assert_eq!(moved(&p, &weak((3.0, 4.0)), None, 2.0).u, 6.0);
+        assert_eq!(moved(&p, &weak((3.0, 4.0)), None, 2.0).0.u, 6.0);
     }
 
     #[test]
@@ -213,6 +223,24 @@ mod tests {
         track.global_best = State::new(8.0, 2.0, 30.0, 40.0);
         let (u, v) = position(&parameters(), &track, Some(&trusted));
         assert!((u - 5.0).abs() < 1e-12 && (v - 0.65).abs() < 1e-12, "({u}, {v})");
+    }
+
+    #[test]
+    fn each_rule_is_named() {
+        let p = parameters();
+        let rule = |own: Vector, velocity: Option<Vector>| {
+            let trusted = velocity.map(|velocity| Trusted { position: (40.0, 0.0), displacement: velocity, velocity });
+            moved(&p, &weak(own), trusted.as_ref(), 1.0).1
+        };
+        // tau_V = .02 * 50 = 1 px/tick.
+        assert_eq!(rule((0.6, 0.7), Some((4.0, 3.0))), WeakMove::Still);
+        assert_eq!(rule((3.0, 4.0), None), WeakMove::Own);
+        assert_eq!(rule((3.0, 4.0), Some((0.9, 0.0))), WeakMove::Own);
+        assert_eq!(rule((3.0, 4.0), Some((4.0, 3.0))), WeakMove::WithNeighbours);
+        assert_eq!(rule((3.0, 4.0), Some((-3.0, -4.0))), WeakMove::Around);
+        let overtaking = GenTrack2Parameters { speed_ratio: 0.7, ..p };
+        let slow = Trusted { position: (40.0, 0.0), displacement: (1.8, 2.4), velocity: (1.8, 2.4) };
+        assert_eq!(moved(&overtaking, &weak((3.0, 4.0)), Some(&slow), 1.0).1, WeakMove::Own);
     }
 
     #[test]
