@@ -19,9 +19,10 @@ else
     source="--detector hog --max-height 160 --save-det $detections.part"
 fi
 
-# shellcheck disable=SC2086 # the source is two words or more
+# DEMO_LAYERS='--particles --neighbours' draws these, too.
+# shellcheck disable=SC2086 # both are several words, or none
 "$program" --tracker gentrack2 $source --video "$video" --out "$out/demo.txt" --annotate "$out/demo.mp4" \
-    --sheet "$out/demo.png" --sheet-frames "${DEMO_FRAMES:-268,280,292,304,316,328}"
+    ${DEMO_LAYERS:-} --sheet "$out/demo.png" --sheet-frames "${DEMO_FRAMES:-268,280,292,304,316,328}"
 if [ -e "$detections.part" ]; then mv "$detections.part" "$detections"; fi
 
 # time_of OPTIONS... : the line of --time for the tracker alone, on the stored detections.

@@ -1,54 +1,36 @@
-// Draws tracks on frames: box, identity, trail and particles.
+// Draws tracks on frames: box, identity, trail, and on request what guided them. The styles are those of the figures in
+// GenTrack2's paper: green boxes are strong, red ones weak, and bold ones those to look at.
 #pragma once
 
-#include <cstdint>
-#include <deque>
-#include <map>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "drawn_track.hpp"
 #include "mot_io.hpp"
+#include "trails.hpp"
 
 namespace examples {
 
-/// How a track is drawn.
-enum class Look {
-    /// Solid green.
-    strong,
-    /// Solid red.
-    weak,
-    /// Dashed red: the tracker keeps it but does not stand for its box.
-    lost,
-    /// Thin grey, without a label.
-    tentative,
-};
-
-struct DrawnTrack {
-    std::uint64_t id;
-    cv::Rect2d box;
-    Look look;
-    /// A detection was taken in this frame: a bold box.
-    bool matched;
-    /// Boxes of its particles, if they are to be drawn.
-    std::vector<cv::Rect2d> particles;
-};
-
 class Annotator {
 public:
+    /// `layers` says what the legend is to explain beside boxes: particles, neighbours. On frames without an image
+    /// boxes are `tinted`.
+    struct Layers {
+        bool particles = false, neighbours = false, tinted = false;
+    };
+
+    explicit Annotator(const Layers &layers) : layers_(layers) {}
+
     /// Draws the tracks of a frame on `image` (BGR, 8 bits), with a caption and a legend. `motion` is the camera's
-    /// since the previous frame: trails move with the scene.
+    /// since the previous frame.
     void draw(cv::Mat &image, const std::string &caption, const std::vector<DrawnTrack> &tracks,
               const std::optional<Affine> &motion);
 
 private:
-    void remember(const std::vector<DrawnTrack> &tracks, const std::optional<Affine> &motion);
-
-    std::map<std::uint64_t, std::deque<cv::Point2d>> trails_;
+    Layers layers_;
+    Trails trails_;
 };
-
-/// The colour of an identity, for trail and label; the same in every run, and different for neighbouring ids.
-cv::Scalar identity_colour(std::uint64_t id);
 
 }  // namespace examples

@@ -1,14 +1,14 @@
-// Command lines, and the options that the programs share.
+// Command lines.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <opencv2/core/types.hpp>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include "inputs.hpp"
 
 namespace examples {
 
@@ -29,6 +29,8 @@ public:
     cv::Size size();
     /// Frame numbers with commas between.
     std::vector<long> frame_list();
+    /// Identities with commas between.
+    std::set<std::uint64_t> identities();
     /// KEY=VALUE
     std::pair<std::string, std::string> setting();
 
@@ -43,20 +45,7 @@ private:
 /// What reads the value of each option.
 using OptionTable = std::map<std::string, std::function<void()>>;
 
-/// The options of both programs about frames, detections and camera motion.
-OptionTable input_options(ArgumentReader &reader, InputOptions &options);
-
 /// Reads all arguments, or up to "--help" or "-h", and tells whether that was among them.
 bool read_arguments(ArgumentReader &reader, const OptionTable &table);
-
-/// Throws `UserError` for options that do not go together.
-void check_inputs(const InputOptions &options);
-
-/// Throws `UserError` if one of the files to be written is one that is read.
-void check_not_overwritten(const InputOptions &options, const std::vector<std::string> &also_read,
-                           const std::vector<std::string> &written);
-
-/// The names of the trackers, with blanks between.
-std::string tracker_names();
 
 }  // namespace examples

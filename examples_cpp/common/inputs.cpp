@@ -1,13 +1,21 @@
 #include "inputs.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "text.hpp"
 
 namespace examples {
+namespace {
+
+DetectionOptions options_of(const InputOptions &o) {
+    return {o.filter, o.normalise_scores, o.embeddings, o.dimension, o.classes};
+}
+
+}  // namespace
 
 Inputs::Inputs(const InputOptions &o) : options_(o), source_(o.video, o.images) {
-    if (!o.det.empty()) file_ = read_detections(o.det, {o.filter, o.normalise_scores, o.embeddings, o.dimension});
+    if (!o.det.empty()) file_ = read_detections(o.det, options_of(o));
     if (!o.gmc.empty()) motions_ = read_camera_motion(o.gmc);
     if (!o.detector.empty()) detector_ = make_detector(o.detector);
 }
@@ -22,6 +30,19 @@ std::optional<long> Inputs::length() const {
 long Inputs::expected_frames() {
     const auto frames = length();
     return frames ? *frames : source_.expected_frames();
+}
+
+cv::Size Inputs::plain_size() const {
+    if (options_.size) return *options_.size;
+    cv::Point2d corner(320, 240);
+    for (const auto &[frame, rows] : file_.frames) {
+        for (const DetectionRow &r : rows.detections) {
+            corner = {std::max(corner.x, r.left + r.width), std::max(corner.y, r.top + r.height)};
+        }
+    }
+    // Beyond this somebody's boxes are wrong.
+    const auto side = [](double x) { return static_cast<int>(std::ceil(std::min(x, 8192.0))); };
+    return {side(corner.x), side(corner.y)};
 }
 
 bool Inputs::next(FrameInput &input) {

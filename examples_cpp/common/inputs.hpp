@@ -25,6 +25,8 @@ struct InputOptions {
     bool normalise_scores = false;
     std::string embeddings;
     int dimension = 0;
+    /// `det` has class ids in its eighth field.
+    bool classes = false;
     /// Camera motion: a file or an estimate, or none.
     std::string gmc;
     bool estimate_camera_motion = false;
@@ -46,6 +48,9 @@ public:
 
     /// Number of frames, as far as is known beforehand; 0 if it is not.
     long expected_frames();
+
+    /// Size of the frames that there are no images of: as given, or else large enough for all detections.
+    cv::Size plain_size() const;
 
     /// Reads the next frame into `input`; false at the end.
     bool next(FrameInput &input);

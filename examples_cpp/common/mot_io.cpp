@@ -4,74 +4,37 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
+#include "mot_rows.hpp"
 #include "text.hpp"
 
 namespace examples {
 namespace {
-
-/// Calls `visit(number, line)` for every line of `text` that is not blank.
-template <typename Visit>
-void for_each_line(std::string_view text, Visit visit) {
-    for (long number = 1; !text.empty(); ++number) {
-        const auto end = std::min(text.find('\n'), text.size());
-        const auto line = trimmed(text.substr(0, end));
-        if (!line.empty()) visit(number, line);
-        text.remove_prefix(std::min(end + 1, text.size()));
-    }
-}
-
-[[noreturn]] void bad_row(const std::string &path, long line, const std::string &reason) {
-    throw UserError(path + ":" + std::to_string(line) + ": " + reason);
-}
-
-std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
-
-/// The library's limit, asked for here to be able to name the line.
-constexpr double max_coordinate = 1e12;
 
 struct ParsedRow {
     long frame;
     DetectionRow detection;
 };
 
-ParsedRow parse_detection(const std::string &path, long line, std::string_view text, bool any_score) {
-    static constexpr const char *names[] = {"frame", "id", "left", "top", "width", "height", "score"};
-    const auto fields = split_commas(text);
-    if (fields.size() < 7) {
-        bad_row(path, line, "expected at least 7 fields frame,id,left,top,width,height,score, found " +
-                                std::to_string(fields.size()));
+/// The class id in a row's eighth field.
+int class_of(const MotRow &row) {
+    const auto id = row.fields.size() > 7 ? parse_integer(row.fields[7]) : std::nullopt;
+    if (!id || *id < 0 || *id > std::numeric_limits<int>::max()) {
+        row.refuse("--class-names needs a class id from 0 in the eighth field");
     }
-    double values[7];
-    for (int i = 0; i < 7; ++i) {
-        const auto value = parse_number(fields[i]);
-        if (!value) bad_row(path, line, std::string(names[i]) + " " + quoted(fields[i]) + " is not a finite number");
-        values[i] = *value;
-    }
-    const auto frame = parse_integer(fields[0]);
-    if (!frame || *frame < 1 || *frame > max_frame) {
-        bad_row(path, line, "frame " + quoted(fields[0]) + " is not an integer in 1.." + std::to_string(max_frame));
-    }
-    for (int i = 2; i < 6; ++i) {
-        if (std::abs(values[i]) > max_coordinate) {
-            bad_row(path, line, std::string(names[i]) + " " + quoted(fields[i]) + " is beyond 1e12 pixels");
-        }
-    }
-    for (int i = 4; i < 6; ++i) {
-        if (values[i] < 0) bad_row(path, line, std::string(names[i]) + " " + quoted(fields[i]) + " is negative");
-    }
-    const double score = values[6];
-    if (!any_score && (score < 0 || score > 1)) {
-        bad_row(path, line, "score " + quoted(fields[6]) + " is outside 0..1 (--normalise-scores squashes any range)");
-    }
-    return {static_cast<long>(*frame), {values[2], values[3], values[4], values[5], score}};
+    return static_cast<int>(*id);
 }
 
-std::vector<ParsedRow> parse_detections(const std::string &path, bool any_score) {
-    const std::string text = read_file(path);
+std::vector<ParsedRow> parse_detections(const std::string &path, const DetectionOptions &options) {
     std::vector<ParsedRow> rows;
-    for_each_line(text, [&](long number, std::string_view line) {
-        rows.push_back(parse_detection(path, number, line, any_score));
+    for_each_row(path, {"frame", "id", "left", "top", "width", "height", "score"}, [&](const MotRow &row) {
+        const double score = row.number(6, "score");
+        if (!options.normalise_scores && (score < 0 || score > 1)) {
+            row.refuse("score " + quoted(row.fields[6]) + " is outside 0..1 (--normalise-scores squashes any range)");
+        }
+        const int class_id = options.classes ? class_of(row) : 0;
+        rows.push_back({row.frame, {row.left, row.top, row.width, row.height, score, class_id}});
     });
     return rows;
 }
@@ -95,7 +58,7 @@ float little_endian_float(const char *bytes) {
 }  // namespace
 
 DetectionFile read_detections(const std::string &path, const DetectionOptions &options) {
-    std::vector<ParsedRow> rows = parse_detections(path, options.normalise_scores);
+    std::vector<ParsedRow> rows = parse_detections(path, options);
     if (options.normalise_scores) normalise_scores(rows);
     const bool with_embeddings = !options.embeddings.empty();
     const std::string raw = with_embeddings ? read_file(options.embeddings) : std::string();
@@ -126,21 +89,22 @@ std::vector<Affine> read_camera_motion(const std::string &path) {
     for_each_line(text, [&](long number, std::string_view line) {
         const auto fields = split_blanks(line);
         if (fields.size() != 7) {
-            bad_row(path, number,
-                    "expected a frame number and 6 numbers of a 2x3 matrix, found " + std::to_string(fields.size()) +
-                        " fields");
+            refuse_line(path, number,
+                        "expected a frame number and 6 numbers of a 2x3 matrix, found " +
+                            std::to_string(fields.size()) + " fields");
         }
         double values[7];
         for (std::size_t i = 0; i < 7; ++i) {
             const auto value = parse_number(fields[i]);
-            if (!value) bad_row(path, number, quoted(fields[i]) + " is not a finite number");
+            if (!value) refuse_line(path, number, quoted(fields[i]) + " is not a finite number");
             values[i] = *value;
         }
         // A line per frame, counted from 0 or 1: a gap would shift all that follow.
         if (motions.empty() && values[0] == 1) first = 1;
         const long expected = first + static_cast<long>(motions.size());
         if (values[0] != static_cast<double>(expected)) {
-            bad_row(path, number, "frame " + quoted(fields[0]) + " where " + std::to_string(expected) + " is expected");
+            refuse_line(path, number,
+                        "frame " + quoted(fields[0]) + " where " + std::to_string(expected) + " is expected");
         }
         Affine motion{};
         std::copy(values + 1, values + 7, motion.begin());

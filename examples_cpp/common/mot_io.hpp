@@ -14,6 +14,7 @@ namespace examples {
 /// A detection: box in pixels, score in [0, 1].
 struct DetectionRow {
     double left, top, width, height, score;
+    int class_id = 0;
 };
 
 /// Row-major 2x3 affine map from the previous frame to this one.
@@ -51,10 +52,9 @@ struct DetectionOptions {
     /// Raw little-endian f32, one row of `dimension` numbers per row of the file; empty for none.
     std::string embeddings;
     int dimension = 0;
+    /// The eighth field of each row is its class id.
+    bool classes = false;
 };
-
-/// The highest frame number accepted: a typing error must not become a day of empty steps.
-constexpr long max_frame = 10'000'000;
 
 /// Reads MOTChallenge rows `frame,id,left,top,width,height,score,...`, in any order of frames; blank lines are
 /// skipped. Throws `UserError` with the line number and the reason for a bad row.

@@ -30,6 +30,17 @@ void load(gt2_config *config, const std::string &path, const TrackerSettings &s)
     if (algorithm != s.name) throw UserError(path + ": is for " + algorithm + ", but " + s.option + " is " + s.name);
 }
 
+/// How a weak track moves, in a word or two; empty for others.
+std::string rule_name(std::int32_t rule) {
+    switch (rule) {
+        case GT2_MOVE_STILL: return "stays";
+        case GT2_MOVE_OWN: return "own way";
+        case GT2_MOVE_WITH_NEIGHBOURS: return "with them";
+        case GT2_MOVE_AROUND: return "around them";
+    }
+    return "";
+}
+
 }  // namespace
 
 struct Session::Parts {
@@ -57,7 +68,7 @@ void Session::step(const FrameInput &input, StepTimes &times) {
     auto &detections = parts_->detections;
     detections.clear();
     for (const DetectionRow &r : input.rows.detections) {
-        detections.push_back(gentrack2::detection(cv::Rect2d(r.left, r.top, r.width, r.height), r.score));
+        detections.push_back(gentrack2::detection(cv::Rect2d(r.left, r.top, r.width, r.height), r.score, r.class_id));
     }
     gt2_frame frame = GT2_FRAME_INIT;
     frame.detections = detections.data();
@@ -94,18 +105,31 @@ std::vector<TrackedObject> Session::tracks(bool all) const {
                                      : t.state == GT2_TRACK_LOST    ? TrackState::lost
                                                                     : TrackState::tentative;
             objects.push_back({{t.id, t.left, t.top, t.width, t.height, t.score}, state, kind == GT2_TRACKS_REPORTED,
-                               t.detection_index >= 0});
+                               t.detection_index >= 0, t.class_id});
         }
     }
     return objects;
 }
 
-std::vector<cv::Rect2d> Session::particles(std::uint64_t id) const {
+std::vector<DrawnParticle> Session::particles(std::uint64_t id) const {
     gt2_particle_list list = GT2_PARTICLE_LIST_INIT;
     check(gt2_tracker_particles(parts_->tracker.get(), id, &list));
-    std::vector<cv::Rect2d> boxes;
-    for (std::size_t i = 0; i < list.count; ++i) boxes.push_back(gentrack2::rect(*gt2_particle_at(&list, i)));
-    return boxes;
+    std::vector<DrawnParticle> particles;
+    for (std::size_t i = 0; i < list.count; ++i) {
+        const gt2_particle &p = *gt2_particle_at(&list, i);
+        particles.push_back({gentrack2::rect(p), p.fitness});
+    }
+    return particles;
+}
+
+DrawnNeighbours Session::neighbours(std::uint64_t id) const {
+    gt2_neighbourhood near = GT2_NEIGHBOURHOOD_INIT;
+    check(gt2_tracker_neighbourhood(parts_->tracker.get(), id, &near));
+    return {{near.neighbours, near.neighbours + near.count},
+            near.trusted_count,
+            {near.velocity_u, near.velocity_v},
+            rule_name(near.rule),
+            near.rule == GT2_MOVE_WITH_NEIGHBOURS};
 }
 
 double Session::frame_rate() const {

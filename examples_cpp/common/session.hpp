@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "drawn_track.hpp"
 #include "frame_input.hpp"
 #include "mot_io.hpp"
 #include "timing.hpp"
@@ -38,6 +39,7 @@ struct TrackedObject {
     bool reported;
     /// A detection was taken in this frame.
     bool matched;
+    int class_id;
 };
 
 class Session {
@@ -53,7 +55,10 @@ public:
     std::vector<TrackedObject> tracks(bool all) const;
 
     /// The particles of a track, none for trackers without.
-    std::vector<cv::Rect2d> particles(std::uint64_t id) const;
+    std::vector<DrawnParticle> particles(std::uint64_t id) const;
+
+    /// What guided a track if it is weak; empty for others, and for trackers without.
+    DrawnNeighbours neighbours(std::uint64_t id) const;
 
     /// The frame rate the tracker was set to.
     double frame_rate() const;

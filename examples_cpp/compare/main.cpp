@@ -5,6 +5,8 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
+#include "canvas.hpp"
+#include "ground_truth.hpp"
 #include "inputs.hpp"
 #include "options.hpp"
 #include "pictures.hpp"
@@ -28,8 +30,16 @@ cv::Mat beside(const cv::Mat &left, const cv::Mat &right) {
 
 void run(const Options &o) {
     examples::Inputs inputs(o.input);
-    const auto side = [&](int k) { return Side(o.trackers[k], inputs.frame_rate(), o.input.video, o.fps); };
+    const auto side = [&](int k) {
+        return Side(o.trackers[k], inputs.frame_rate(), o.input.video, o.fps, o.drawing, !o.input.has_images());
+    };
     std::array<Side, 2> sides = {side(0), side(1)};
+    examples::GroundTruth truth;
+    if (!o.truth.empty()) {
+        truth = examples::read_ground_truth(o.truth);
+        for (Side &tracker : sides) tracker.mark_switches();
+    }
+    const cv::Size plain_size = inputs.plain_size();
     const long expected = inputs.expected_frames();
     examples::VideoFile video(o.out, sides[0].frame_rate());
     std::optional<examples::ContactSheet> sheet;
@@ -41,8 +51,11 @@ void run(const Options &o) {
     examples::Progress progress(expected);
     for (examples::FrameInput input; inputs.next(input);) {
         progress.at(input.frame);
-        const cv::Mat left = sides[0].step(input);
-        const cv::Mat both = beside(left, sides[1].step(input));
+        const auto half = [&](Side &tracker) {
+            return tracker.step(input, examples::canvas_for(input, plain_size), truth[input.frame]);
+        };
+        const cv::Mat left = half(sides[0]);
+        const cv::Mat both = beside(left, half(sides[1]));
         video.add(both);
         if (sheet) sheet->add(input.frame, both);
     }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "drawn_tracks.hpp"
 #include "inputs.hpp"
 #include "session.hpp"
 
@@ -16,6 +17,9 @@ struct Options {
     examples::InputOptions input;
     /// Left and right.
     std::array<examples::TrackerSettings, 2> trackers;
+    examples::DrawingOptions drawing;
+    /// Ground truth; empty for none.
+    std::string truth;
     std::string out, sheet;
     std::vector<long> sheet_frames;
     /// The frame rate of both trackers and of the result, if the user gives one.

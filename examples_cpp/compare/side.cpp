@@ -1,12 +1,9 @@
 #include "side.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <opencv2/imgproc.hpp>
 
-#include "drawn_tracks.hpp"
+#include "band.hpp"
 #include "text.hpp"
 
 namespace compare {
@@ -26,54 +23,51 @@ std::string title_of(const TrackerSettings &settings) {
     return rest.empty() ? settings.name : settings.name + " (" + rest + ")";
 }
 
-/// A line of text, made smaller where it would not fit.
-void write_line(cv::Mat &image, const std::string &text, double baseline, double size, const cv::Scalar &colour) {
-    const double margin = 14 * size;
-    const int thickness = size >= 0.9 ? 2 : 1;
-    int below = 0;
-    const int width = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, size, thickness, &below).width;
-    const double fitted = size * std::min(1.0, (image.cols - 2 * margin) / std::max(1, width));
-    if (fitted <= 0) return;
-    const cv::Point start(static_cast<int>(std::lround(margin)), static_cast<int>(std::lround(baseline)));
-    cv::putText(image, text, start, cv::FONT_HERSHEY_SIMPLEX, fitted, colour, thickness, cv::LINE_AA);
-}
-
 }  // namespace
 
-Side::Side(const TrackerSettings &settings, double video_rate, const std::string &video, std::optional<double> fps)
+Side::Side(const TrackerSettings &settings, double video_rate, const std::string &video, std::optional<double> fps,
+           const DrawingOptions &drawing, bool plain)
     : option_(settings.option),
       title_(title_of(settings)),
-      session_(with_rate(settings, fps), video_rate, video) {}
+      session_(with_rate(settings, fps), video_rate, video),
+      drawing_(drawing),
+      annotator_(drawing.layers(plain)) {}
 
-cv::Mat Side::step(const FrameInput &input) {
+void Side::mark_switches() { marks_.emplace(session_.frame_rate()); }
+
+cv::Mat Side::step(const FrameInput &input, cv::Mat canvas, const std::vector<TrueBox> &truth) {
     try {
         session_.step(input, times_);
     } catch (const UserError &error) {
         throw UserError(option_ + ": " + error.what());
     }
-    const auto tracks = drawn_tracks(session_, false, false);
-    for (const TrackedObject &t : session_.tracks(false)) identities_.insert(t.row.id);
-    const std::size_t now = reported_count(tracks);
-    boxes_ += now;
-
-    const double scale = std::max(1.0, input.image.rows / 576.0);
-    const int band = static_cast<int>(std::lround(54 * scale));
-    cv::Mat whole(band + input.image.rows, input.image.cols, CV_8UC3, cv::Scalar::all(30));
-    cv::Mat picture = whole.rowRange(band, whole.rows);
-    input.image.copyTo(picture);
-    annotator_.draw(picture, "frame " + std::to_string(input.frame), tracks, input.motion);
-    const std::string counts =
-        "tracks now " + std::to_string(now) + "   identities so far " + std::to_string(identities_.size());
-    write_line(whole, title_, 22 * scale, 0.65 * scale, cv::Scalar::all(255));
-    write_line(whole, counts, 44 * scale, 0.55 * scale, cv::Scalar(160, 220, 255));
-    return whole;
+    const auto tracks = drawn_tracks(session_, drawing_);
+    std::vector<TrackedBox> reported;
+    for (const TrackedObject &t : session_.tracks(false)) {
+        identities_.insert(t.row.id);
+        reported.push_back({t.row.id, {t.row.left, t.row.top, t.row.width, t.row.height}});
+    }
+    boxes_ += reported.size();
+    annotator_.draw(canvas, "frame " + std::to_string(input.frame), tracks, input.motion);
+    Band band;
+    band.title = title_;
+    band.counts = "tracks now " + std::to_string(reported.size()) + "   identities so far " +
+                  std::to_string(identities_.size());
+    if (marks_) {
+        marks_->add(truth, reported);
+        marks_->draw(canvas);
+        band.switches = "identity switches " + std::to_string(marks_->count());
+        band.alarm = marks_->active();
+    }
+    return under_band(canvas, band);
 }
 
 std::string Side::summary() const {
     char numbers[120];
     std::snprintf(numbers, sizeof numbers, "%zu identities, %zu boxes, mean step %.2f us", identities_.size(), boxes_,
                   times_.mean());
-    return option_.substr(2) + " " + title_ + ": " + numbers;
+    const std::string switches = marks_ ? ", " + std::to_string(marks_->count()) + " identity switches" : "";
+    return option_.substr(2) + " " + title_ + ": " + numbers + switches;
 }
 
 }  // namespace compare

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "arguments.hpp"
+#include "shared_options.hpp"
 #include "text.hpp"
 
 namespace gt2_mot {
@@ -42,10 +42,15 @@ Tracks the objects of a video or of a file of detections and writes MOTChallenge
   --config FILE        TOML file of parameters
   --set KEY=VALUE      a parameter; may be given again
 
-  --annotate FILE      write an annotated video (.mp4, .avi)
+  --annotate FILE      write an annotated video (.mp4, .avi): a green box was detected in that frame, a dashed red one
+                       is predicted, a dotted one lost; without images it is drawn on a plain ground
   --sheet FILE         write a picture of six annotated frames
   --sheet-frames A,B,..  which six; by default they are spread over the run
-  --particles          draw the trackers' particles
+  --particles          draw the tracker's particles
+  --neighbours         draw the neighbours that guided each weak track, how they move and by which rule it followed them
+  --focus ID,ID,..     draw these identities bold, and particles and neighbours of these alone
+  --class-names FILE   names of the classes 0, 1, ..., one per line, to stand beside the identities: the eighth field
+                       of --det is then the class
   --all-states         also write tentative and lost tracks
   --save-det FILE      write the detections that the tracker was given
   --time               print the time of the tracker alone to stderr
@@ -69,11 +74,12 @@ void check_together(const Options &o) {
     check_inputs(o.input);
     if (o.out.empty()) throw UserError("--out is missing");
     const bool draws = !o.annotate.empty() || !o.sheet.empty();
-    if (draws && !o.input.has_images() && !o.input.size) {
-        throw UserError("drawing needs --video, --images or --size");
-    }
     check_not_overwritten(o.input, {o.config}, {o.out, o.save_det, o.annotate, o.sheet});
-    if (o.particles && !draws) throw UserError("--particles needs --annotate or --sheet");
+    for (const auto &[layer, wanted] : {std::pair("--particles", o.drawing.particles),
+                                        std::pair("--neighbours", o.drawing.neighbours),
+                                        std::pair("--focus", !o.drawing.focus.empty())}) {
+        if (wanted && !draws) throw UserError(std::string(layer) + " needs --annotate or --sheet");
+    }
     if (!o.sheet_frames.empty() && o.sheet.empty()) throw UserError("--sheet-frames needs --sheet");
 }
 
@@ -85,10 +91,6 @@ Options parse_options(const std::vector<std::string> &arguments) {
     examples::OptionTable table = {
         {"--tracker", [&] { o.tracker = r.value(); }},
         {"--out", [&] { o.out = r.value(); }},
-        {"--gmc", [&] { o.input.gmc = r.value(); }},
-        {"--embeddings", [&] { o.input.embeddings = r.value(); }},
-        {"--dim", [&] { o.input.dimension = static_cast<int>(r.integer(1, 16384)); }},
-        {"--size", [&] { o.input.size = r.size(); }},
         {"--fps", [&] { o.fps = r.number(0, 1e6, "a number of frames per second"); }},
         {"--seed", [&] { o.seed = r.value(); }},
         {"--config", [&] { o.config = r.value(); }},
@@ -96,12 +98,12 @@ Options parse_options(const std::vector<std::string> &arguments) {
         {"--annotate", [&] { o.annotate = r.value(); }},
         {"--sheet", [&] { o.sheet = r.value(); }},
         {"--sheet-frames", [&] { o.sheet_frames = r.frame_list(); }},
-        {"--particles", [&] { o.particles = true; }},
         {"--all-states", [&] { o.all_states = true; }},
         {"--save-det", [&] { o.save_det = r.value(); }},
         {"--time", [&] { o.time = true; }},
     };
     table.merge(examples::input_options(r, o.input));
+    table.merge(examples::drawing_options(r, o.drawing, o.input));
     o.help = examples::read_arguments(r, table);
     if (!o.help) check_together(o);
     return o;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "drawn_tracks.hpp"
 #include "inputs.hpp"
 #include "session.hpp"
 
@@ -22,7 +23,7 @@ struct Options {
     std::vector<std::pair<std::string, std::string>> set;
     std::string annotate, sheet;
     std::vector<long> sheet_frames;
-    bool particles = false;
+    examples::DrawingOptions drawing;
     bool all_states = false;
     bool time = false;
     std::string save_det;

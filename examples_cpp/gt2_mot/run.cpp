@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "annotator.hpp"
+#include "canvas.hpp"
 #include "drawn_tracks.hpp"
 #include "inputs.hpp"
 #include "mot_io.hpp"
@@ -21,7 +22,12 @@ using namespace examples;
 /// Drawing, if it was asked for.
 class Drawing {
 public:
-    Drawing(const Options &o, double frame_rate, long frames) : options_(o) {
+    Drawing(const Options &o, double frame_rate, long frames, const cv::Size &plain_size)
+        : options_(o),
+          plain_size_(plain_size),
+          what_(o.drawing),
+          annotator_(o.drawing.layers(!o.input.has_images())) {
+        what_.tentative = o.all_states;
         if (!o.annotate.empty()) video_.emplace(o.annotate, frame_rate);
         if (o.sheet.empty()) return;
         sheet_.emplace(o.sheet, o.sheet_frames.empty() ? ContactSheet::spread_over(frames) : o.sheet_frames);
@@ -31,11 +37,10 @@ public:
 
     void add(const FrameInput &input, const Session &session) {
         if (!wanted()) return;
-        cv::Mat canvas = input.image.empty() ? cv::Mat(input.size.value(), CV_8UC3, cv::Scalar::all(40))
-                                             : input.image.clone();
-        const auto tracks = drawn_tracks(session, options_.all_states, options_.particles);
-        const std::string caption =
-            "frame " + std::to_string(input.frame) + "   tracks " + std::to_string(reported_count(tracks));
+        cv::Mat canvas = canvas_for(input, plain_size_);
+        const auto tracks = drawn_tracks(session, what_);
+        const std::string caption = options_.tracker + "   frame " + std::to_string(input.frame) + "   tracks " +
+                                    std::to_string(reported_count(tracks));
         annotator_.draw(canvas, caption, tracks, input.motion);
         if (video_) video_->add(canvas);
         if (sheet_) sheet_->add(input.frame, canvas);
@@ -47,6 +52,8 @@ public:
 
 private:
     const Options &options_;
+    cv::Size plain_size_;
+    DrawingOptions what_;
     Annotator annotator_;
     std::optional<VideoFile> video_;
     std::optional<ContactSheet> sheet_;
@@ -67,7 +74,7 @@ void run(const Options &o) {
     std::optional<RowWriter> detections;
     if (!o.save_det.empty()) detections.emplace(o.save_det);
     const long expected = inputs.expected_frames();
-    Drawing drawing(o, session.frame_rate(), expected);
+    Drawing drawing(o, session.frame_rate(), expected, inputs.plain_size());
     Progress progress(expected);
     StepTimes times;
 

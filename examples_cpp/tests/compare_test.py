@@ -15,6 +15,8 @@ PROGRAM = os.path.abspath(sys.argv.pop(1))
 
 # Two frames of this width and the line between them are as wide as a tile of the sheet, which then shows each pixel.
 WIDTH, HEIGHT, GAP, BAND, TILE, FRAMES = 638, 240, 4, 54, 1280, 20
+# The colour of identity switches.
+MARK = bytes((255, 60, 255))
 
 
 def run(program, *arguments):
@@ -48,9 +50,10 @@ class Case(unittest.TestCase):
         """The two lines on stdout: (left or right, name, identities, boxes)."""
         done = run(PROGRAM, *self.base, "--out", self.path("both.avi"), *arguments)
         self.assertEqual((done.returncode, done.stderr), (0, remarks))
-        line = r"(left|right) (.+): (\d+) identities, (\d+) boxes, mean step [\d.]+ us"
+        line = r"(left|right) (.+): (\d+) identities, (\d+) boxes, mean step [\d.]+ us(?:, (\d+) identity switches)?"
         rows = [re.fullmatch(line, text).groups() for text in done.stdout.splitlines()]
-        return [(side, name, int(identities), int(boxes)) for side, name, identities, boxes in rows]
+        self.switches = [None if row[4] is None else int(row[4]) for row in rows]
+        return [(side, name, int(identities), int(boxes)) for side, name, identities, boxes, _ in rows]
 
     def refused(self, expected, *arguments):
         """The program must fail with exactly one line on stderr, containing `expected`."""
@@ -129,6 +132,49 @@ class Results(Case):
         whole, part = self.compared()[0], self.compared("--frames", 12)[0]
         self.assertEqual(whole[3] - part[3], 3 * (FRAMES - 12))
 
+    def gapped(self):
+        """Detections in which the second person is missed in frames 10 to 12, and the truth, in which nobody is."""
+        rows = [(frame, person, f"{50 + 200 * person + 2 * frame},{100 + 10 * person},40,100")
+                for frame in range(1, FRAMES + 1) for person in range(3)]
+        det = self.file("gapped.txt", "".join(
+            f"{frame},-1,{box},0.9\n" for frame, person, box in rows if person != 1 or not 10 <= frame <= 12))
+        truth = self.file("truth.txt", "".join(f"{frame},{person + 1},{box},1,1,1\n" for frame, person, box in rows))
+        return det, truth
+
+    def test_identity_switches_are_counted(self):
+        """SORT as published forgets after one frame and needs three to trust again; GenTrack2 bridges the gap."""
+        det, truth = self.gapped()
+        self.base = ("--left", "gentrack2", "--right", "sort", "--images", self.images, "--det", det)
+        self.compared()
+        self.assertEqual(self.switches, [None, None])
+        left, right = self.compared("--truth", truth)
+        self.assertEqual(self.switches, [0, 1])
+        self.assertEqual((left[2], right[2]), (3, 4))
+        # Before the person is found again there is nothing to count.
+        self.compared("--truth", truth, "--frames", 12)
+        self.assertEqual(self.switches, [0, 0])
+
+    def test_switches_are_marked_on_their_side(self):
+        det, truth = self.gapped()
+        self.base = ("--left", "gentrack2", "--right", "sort", "--images", self.images, "--det", det)
+        marked = lambda row: sum(row[i:i + 3] == MARK for i in range(0, len(row), 3))
+        for more, expected in (((), False), (("--truth", truth), True)):
+            left, right = self.halves("--fps", 10, *more)
+            self.assertEqual([any(marked(row) for row in half[BAND:]) for half in (left, right)], [False, expected])
+            # The counter in the band lights up.
+            self.assertEqual([any(marked(row) > 50 for row in half[:BAND]) for half in (left, right)],
+                             [False, expected])
+
+    def test_without_images_on_a_plain_ground(self):
+        with_images = self.compared()
+        self.base = (*self.base[:4], *self.base[6:], "--size", f"{WIDTH}x{HEIGHT}")
+        left, right = self.halves("--right-set", "birth_score=1")
+        self.assertEqual(self.compared()[0][1:], with_images[0][1:])
+        # Boxes are tinted on the left; on the right there is the ground alone, with its mesh.
+        colours = lambda half: {row[i:i + 3] for row in half[BAND + 95:BAND + 200] for i in range(0, len(row), 3)}
+        self.assertEqual(len(colours(right)), 2)
+        self.assertGreater(len(colours(left)), 10)
+
     def test_help(self):
         done = run(PROGRAM, "--help")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
@@ -140,10 +186,10 @@ class Mistakes(Case):
     def test_command_line(self):
         out = ("--out", self.path("both.avi"))
         sides, images, det = self.base[:4], self.base[4:6], self.base[6:]
+        truth = self.file("truth.txt", "1,1,10,10,40,100\n")
         for expected, arguments in (
             ("--left is missing", ()),
             ("--right is missing", (*self.base[:2], *images, *det, *out)),
-            ("give either --video or --images", (*sides, *det, *out)),
             ("--video and --images exclude each other", (*self.base, "--video", "x", *out)),
             ("give either --det or --detector", (*sides, *images, *out)),
             ("give either --det or --detector", (*self.base, "--detector", "hog", *out)),
@@ -153,6 +199,8 @@ class Mistakes(Case):
             ("--right-set needs a value", (*self.base, *out, "--right-set")),
             ("--sheet-frames needs --sheet", (*self.base, *out, "--sheet-frames", "1")),
             ("would overwrite what is read from it", (*self.base, "--out", self.det)),
+            ("would overwrite what is read from it", (*self.base, "--truth", truth, "--out", truth)),
+            ("--focus 1,x: expected identities with commas between", (*self.base, *out, "--focus", "1,x")),
         ):
             with self.subTest(arguments=arguments):
                 self.refused(expected, *arguments)
@@ -172,6 +220,9 @@ class Mistakes(Case):
         gone, sides = self.path("gone"), self.base[:4]
         self.refused("gone: no such file", *sides, *self.base[6:], "--video", gone, *out)
         self.refused("gone: No such file or directory", *self.base[:6], "--det", gone, *out)
+        self.refused("gone: No such file or directory", *self.base, *out, "--truth", gone)
+        bad = self.file("bad.txt", "1,1,10,10,40,100\n1,2,10,10,-40,100\n")
+        self.refused('bad.txt:2: width "-40" is negative', *self.base, *out, "--truth", bad)
         self.refused("cannot write this as a video", *self.base, "--out", self.path("no/such/both.avi"))
         self.refused("det.txt has detections up to frame 20", *sides, "--images", self.few(), "--det", self.det, *out)
 

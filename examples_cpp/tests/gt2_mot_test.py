@@ -2,6 +2,7 @@
 
 usage: gt2_mot_test.py PROGRAM
 """
+import collections
 import math
 import os
 import random
@@ -233,6 +234,105 @@ class Results(Case):
             header = file.read(24)
         # Three tiles of 640x480 and four gaps of 6; two tiles and three gaps.
         self.assertEqual(struct.unpack(">2I", header[16:]), (3 * 640 + 4 * 6, 2 * 480 + 3 * 6))
+
+
+class Drawing(Case):
+    """Every tracker, on images and on a plain ground."""
+
+    STRONG, WEAK, MOTION = bytes((60, 225, 70)), bytes((255, 60, 70)), bytes((255, 225, 60))
+
+    def names(self):
+        text = self.run_program("--help").stdout
+        names = re.search(r"(?m)^  --tracker NAME +(.*)$", text)[1].split()
+        self.assertEqual(len(names), 8)
+        return names
+
+    def sheet(self, tracker, *arguments, frames="25,26,27,28,29,30"):
+        """Draws a video and a sheet; returns the pixels of the sheet."""
+        sheet, video = self.path("a.ppm"), self.path("a.avi")
+        done = self.run_program("--tracker", tracker, "--out", self.path("a.txt"), "--annotate", video,
+                                "--sheet", sheet, "--sheet-frames", frames, *arguments)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        with open(video, "rb") as file:
+            self.assertEqual(file.read(4), b"RIFF")
+        self.assertGreater(os.path.getsize(video), 10000)
+        with open(sheet, "rb") as file:
+            magic, _, _, pixels = file.read().split(b"\n", 3)
+        self.assertEqual(magic, b"P6")
+        return pixels
+
+    def people(self, frames=30):
+        """As in `walk`, within 640x480 pixels; the one in the middle is missed from frame 24 on, and the three are near
+        enough to each other to be neighbours."""
+        rows = [(f, p, 100 + 42 * p + 3 * f, 100 + 2 * p, 40, 100, 0.9) for f in range(1, frames + 1) for p in range(3)
+                if p != 1 or f < 24]
+        return self.file("people.txt", text_of(rows))
+
+    def images(self, frames=30):
+        directory = self.path("images")
+        os.makedirs(directory, exist_ok=True)
+        for k in range(frames):
+            self.file(f"images/{k:03}.pgm", b"P5 640 480 255\n" + bytes([100]) * (640 * 480))
+        return directory
+
+    def test_every_tracker_is_drawn(self):
+        det, images = self.people(), self.images()
+        for name in self.names():
+            for ground in (("--images", images), ("--size", "640x480"), ()):
+                with self.subTest(tracker=name, ground=ground[:1]):
+                    # Two people, in six frames.
+                    pixels = self.sheet(name, "--det", det, *ground, "--particles", "--neighbours")
+                    self.assertGreater(pixels.count(self.STRONG), 2 * 6 * 150)
+
+    def test_layers_on_request(self):
+        det, images = self.people(), self.images()
+        base = ("--det", det, "--images", images)
+        usual = self.sheet("gentrack2", *base)
+        self.assertGreater(usual.count(self.WEAK), 300)
+        self.assertEqual(usual.count(self.MOTION), 0)
+        near = self.sheet("gentrack2", *base, "--neighbours")
+        self.assertGreater(near.count(self.MOTION), 1000)
+        # The weak one is the second; those in focus are bold, and only of them there is more to see.
+        first = self.sheet("gentrack2", *base, "--neighbours", "--focus", "1")
+        second = self.sheet("gentrack2", *base, "--neighbours", "--focus", "2,3")
+        self.assertGreater(first.count(self.STRONG), 1.2 * near.count(self.STRONG))
+        self.assertGreater(second.count(self.MOTION), 5 * first.count(self.MOTION))
+
+    def test_drawing_changes_no_result(self):
+        det, images = self.people(), self.images()
+        plain = self.tracks("--det", det, "--images", images)
+        self.sheet("gentrack2", "--det", det, "--images", images, "--particles", "--neighbours")
+        with open(self.path("a.txt")) as file:
+            self.assertEqual(file.read(), plain)
+
+    def test_without_size_all_detections_are_in_the_picture(self):
+        det = self.file("far.txt", text_of([(f, p, x + f, y, w, h, s) for f, p, x, y, w, h, s in walk(12)]
+                                           + [(12, 9, 1500, 700, 40, 100, 0.95)]))
+        self.sheet("gentrack2", "--det", det, frames="7,8,9,10,11,12")
+        with open(self.path("a.avi"), "rb") as file:
+            self.assertEqual(struct.unpack("<2I", file.read(72)[64:]), (1540, 800))
+
+    def test_class_names_stand_on_labels_and_classes_reach_the_tracker(self):
+        rows = [f"{f},-1,{100 + 3 * f},100,40,100,0.9,{f // 20}\n" for f in range(1, 31)]
+        det, names = self.file("classes.txt", "".join(rows)), self.file("names.txt", "person\nbicycle\n")
+        images = ("--images", self.images())
+        ids = lambda *more: {row.split(",")[1] for row in self.tracks("--det", det, *more).splitlines()}
+        separate = ("--set", "class_policy=separate")
+        self.assertEqual(len(ids(*separate)), 1)
+        self.assertEqual(len(ids(*separate, "--class-names", names)), 2)
+        def label(*more):
+            """How often each colour is there."""
+            pixels = self.sheet("sort", "--det", det, *images, *more, frames="10,11,12,13,14,15")
+            return collections.Counter(pixels[i:i + 3] for i in range(0, len(pixels), 3))
+
+        # A longer plate, in the colour of the identity.
+        without, named = label(), label("--class-names", names)
+        grown = [colour for colour in named if named[colour] > without[colour] + 1000]
+        self.assertEqual(len(grown), 1)
+        self.assertNotEqual(grown[0], bytes((100, 100, 100)))
+        self.refused('classes.txt:1: --class-names needs a class id from 0 in the eighth field',
+                     "--tracker", "sort", "--out", "-", "--class-names", names,
+                     "--det", self.file("classes.txt", "1,-1,100,100,40,100,0.9,-1,-1,-1\n"))
 
 
 # An oracle per tracker, with the options that feed it, and the settings in which it differs from the defaults.
@@ -471,7 +571,11 @@ class Mistakes(Case):
             ("--estimate-camera-motion needs --video or --images", (*base, "--estimate-camera-motion")),
             ("--estimate-camera-motion and --gmc exclude each other",
              (*base, "--estimate-camera-motion", "--gmc", "x", "--images", "y")),
-            ("drawing needs --video, --images or --size", (*base, "--annotate", self.path("a.avi"))),
+            ("--particles needs --annotate or --sheet", (*base, "--particles")),
+            ("--neighbours needs --annotate or --sheet", (*base, "--neighbours")),
+            ("--focus needs --annotate or --sheet", (*base, "--focus", "3")),
+            ("--focus 0: expected identities with commas between", (*base, "--focus", "0")),
+            ("no-names: No such file or directory", (*base, "--class-names", self.path("no-names"))),
         ):
             with self.subTest(arguments=arguments):
                 self.refused(expected, *arguments)
