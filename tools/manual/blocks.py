@@ -247,6 +247,7 @@ def prepare(scratch, root, build, pages):
     rows = "".join(f"{t + 1},-1,{10 + 6 * t},60,40,100,0.9\n" for t in range(24))
     for name in ("det.txt", "out/demo-det.txt"):
         (scratch / name).write_text(rows)
+    (scratch / "gt.txt").write_text(rows.replace(",-1,", ",1,").replace(",0.9\n", ",1,1,1\n"))
     film = [f"{build}/examples_cpp/gt2_mot", "--tracker", "sort", "--det", "det.txt", "--images", "frames",
             "--out", "film.txt", "--annotate", "walk.mp4", "--fps", "25"]
     subprocess.run(film, cwd=scratch, check=True, capture_output=True, env={**os.environ, "LD_LIBRARY_PATH": f"{build}/lib"})
