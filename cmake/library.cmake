@@ -15,6 +15,13 @@ find_program(CARGO cargo HINTS "$ENV{HOME}/.cargo/bin" REQUIRED)
 
 set(cargo_options --profile ${GENTRACK2_CARGO_PROFILE} --lib --locked
     --manifest-path "${PROJECT_SOURCE_DIR}/Cargo.toml" --target-dir "${GENTRACK2_CARGO_TARGET_DIR}")
+# Messages of panics name files; where the builder's crates lie is nobody's business and would make the library's bits
+# depend on it. Whoever sets RUSTFLAGS decides for themselves.
+set(cargo_home "$ENV{CARGO_HOME}")
+if(NOT cargo_home)
+    set(cargo_home "$ENV{HOME}/.cargo")
+endif()
+list(APPEND cargo_options --config "build.rustflags=['--remap-path-prefix=${cargo_home}=/cargo']")
 set(cargo_environment "")
 set(cargo_out "${GENTRACK2_CARGO_TARGET_DIR}")
 if(GENTRACK2_FEATURES)

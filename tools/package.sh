@@ -8,6 +8,10 @@ mkdir -p "$1"
 build=$(cd "$1" && pwd)
 cd "$(dirname "$0")/.."
 
+# All files are of the commit's time, so that the same commit makes the same packages.
+SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/null || date +%s)}
+export SOURCE_DATE_EPOCH
+
 # pack GENERATOR PREFIX : Debian's directories follow from the prefix /usr; an archive has plain lib/ and include/.
 pack() {
     directory=$build/package-$1
