@@ -11,7 +11,8 @@ export GENTRACK2_SHARED := $(abspath ../shared)
 endif
 endif
 
-.PHONY: help build install package docs demo test arm accuracy bench bench-instructions fuzz lint fmt-check clean
+.PHONY: help build install package docs demo test arm accuracy bench bench-instructions fuzz sanitize deny \
+    reproducible lint fmt-check clean
 
 help:
 	@echo "make build      the library and the examples, in $(BUILD)/"
@@ -28,6 +29,11 @@ help:
 	@echo "make bench-instructions"
 	@echo "                instructions per step against benches/instructions/baseline.txt; UPDATE=1 writes that file"
 	@echo "make fuzz       the fuzzers of fuzz/, SECONDS=600 each"
+	@echo "make sanitize   the C and C++ tests under valgrind and GCC's sanitizers; CHECKERS='memcheck helgrind' are some of"
+	@echo "                memcheck, helgrind, address, thread"
+	@echo "make deny       licences and sources of all dependencies; ADVISORIES=1 for known vulnerabilities, from GitHub"
+	@echo "make reproducible"
+	@echo "                a second build elsewhere, which must have the same bits"
 	@echo "make lint       formatting and clippy"
 	@echo "make clean      remove $(BUILD)/, out/ and target/"
 	@echo
@@ -92,6 +98,22 @@ fuzz:
 	    mkdir -p corpus/$$target && \
 	    cargo +nightly fuzz run $$target corpus/$$target seeds/$$target -- -max_total_time=$(SECONDS) || exit 1; \
 	done
+
+CHECKERS ?= memcheck helgrind address thread
+
+sanitize:
+	@tools/install-needs.sh sanitize
+	@$(MAKE) --no-print-directory build
+	@tools/sanitize.sh $(BUILD) $(CHECKERS)
+
+deny:
+	@tools/install-needs.sh deny
+	@tools/deny.sh $(BUILD) $(if $(ADVISORIES),advisories)
+
+reproducible:
+	@tools/install-needs.sh package
+	@$(MAKE) --no-print-directory build
+	@tools/reproducible.sh $(BUILD)
 
 lint: fmt-check
 	cargo clippy --all-targets -- -D warnings

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Installs the Debian packages that a task needs and this machine lacks; does nothing where all is there.
 #
-#   usage: tools/install-needs.sh build|test|demo|package|docs|arm|bench|bench-instructions
+#   usage: tools/install-needs.sh build|test|demo|package|docs|arm|bench|bench-instructions|sanitize|deny
 set -eu
 
 say() { printf '%s\n' "$*" >&2; }
@@ -72,6 +72,16 @@ fi
 
 if [ "$task" = bench-instructions ]; then
     has valgrind || need valgrind
+fi
+
+if [ "$task" = sanitize ]; then
+    has valgrind || need valgrind
+    # Without them helgrind does not know the C library's own locks. GCC brings the sanitizers' runtimes.
+    [ -d /usr/lib/debug/.build-id ] || need libc6-dbg
+fi
+
+if [ "$task" = deny ]; then
+    python3 -c 'import ensurepip' 2>/dev/null || need python3-venv
 fi
 
 if [ "$task" = arm ]; then
