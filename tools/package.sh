@@ -8,7 +8,8 @@ mkdir -p "$1"
 build=$(cd "$1" && pwd)
 cd "$(dirname "$0")/.."
 
-# All files are of the commit's time, so that the same commit makes the same packages.
+# Permissions and times are the same wherever packages are made: those that Debian asks for, and the commit's.
+umask 022
 SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/null || date +%s)}
 export SOURCE_DATE_EPOCH
 

@@ -26,7 +26,6 @@ quiet() {
 }
 
 quiet tools/package.sh "$work/first"
-# Packages are made of the second build of the library; its modes are the installation's, not the umask's.
 (
     umask 027
     CARGO_HOME=$work/cargo-home LC_ALL=C.UTF-8 TZ=Asia/Kathmandu
