@@ -84,7 +84,7 @@ static const bad_frame bad_frames[] = {
     {"embedding_dimension_zero", embedding_dimension_zero, GT2_ERR_EMBEDDINGS, "frame.embedding_dimension: is 0"},
     {"embedding_dimension_changed", embedding_dimension_changed, GT2_ERR_EMBEDDINGS,
      "frame.embedding_dimension: is 3, earlier frames had 4"},
-    {"embedding_dimension_absurd", embedding_dimension_absurd, GT2_ERR_EMBEDDINGS, "frame.embedding_dimension: "},
+    {"embedding_dimension_absurd", embedding_dimension_absurd, GT2_ERR_LIMIT, "frame.embedding_dimension: "},
     {"embedding_stride_short", embedding_stride_short, GT2_ERR_EMBEDDINGS, "frame.embedding_stride: is 3"},
     {"embedding_stride_absurd", embedding_stride_absurd, GT2_ERR_INVALID_ARGUMENT, "embedding"},
     {"embedding_nan", embedding_nan, GT2_ERR_EMBEDDINGS, "frame.embeddings: row 2: component 1 is "},

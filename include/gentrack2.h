@@ -313,7 +313,7 @@ typedef struct gt2_image {
     const uint8_t *data;
     /// Bytes from the start of a row to the start of the next; 0 for rows without padding.
     size_t stride;
-    /// Width in pixels, in 1..=65535.
+    /// Width in pixels, in 1..=65535; width times height at most the parameter max_image_pixels.
     uint32_t width;
     /// Height in pixels, in 1..=65535.
     uint32_t height;
@@ -338,7 +338,8 @@ typedef struct gt2_frame {
     /// Appearance embeddings (re-identification features) of the detections, one row per detection in the same
     /// order, finite; NULL if there are none. They need not be normalised.
     const float *embeddings;
-    /// Floats per embedding, in 1..=16384, the same for all frames until the tracker is reset; 0 without embeddings.
+    /// Floats per embedding, at most the parameter max_embedding_dimension, the same for all frames until the tracker
+    /// is reset; 0 without embeddings.
     size_t embedding_dimension;
     /// Floats from the start of one embedding to the start of the next; 0 for `embedding_dimension`.
     size_t embedding_stride;

@@ -380,7 +380,8 @@ public:
         return *this;
     }
     /// One row of `dimension` floats per detection, in the order of the detections, `stride` floats apart (0: packed).
-    /// They are finite and need not be normalised; `dimension` is in 1..=16384 and the same for all frames.
+    /// They are finite and need not be normalised; `dimension` is at most the parameter max_embedding_dimension and the
+    /// same for all frames.
     Frame &embeddings(const float *data, std::size_t dimension, std::size_t stride = 0) {
         raw_.embeddings = data;
         raw_.embedding_dimension = dimension;

@@ -4,6 +4,7 @@
 use crate::classes::ClassPolicy;
 use crate::error::{Error, Number};
 use crate::geometry::Rect;
+use crate::image::MAX_IMAGE_SIDE;
 
 /// A parameter's value.
 #[derive(Clone, Debug, PartialEq)]
@@ -340,6 +341,9 @@ macro_rules! only_default_preset {
 }
 pub(crate) use only_default_preset;
 
+/// Pixels of the largest image that can be described at all.
+const LARGEST_IMAGE: i64 = (MAX_IMAGE_SIDE as i64) * (MAX_IMAGE_SIDE as i64);
+
 parameters! {
     /// Parameters of the handle, the same for every algorithm.
     pub struct CommonParameters {
@@ -358,6 +362,11 @@ parameters! {
         max_detections: i64 = 32_768, [1, 1_000_000], "detections", "";
         /// Most live tracks; while there are that many, no new ones are started.
         max_tracks: i64 = 32_768, [1, 1_000_000], "tracks", "";
+        /// Most numbers in an embedding; longer ones are an error.
+        max_embedding_dimension: i64 = 16_384, [1, 1_000_000], "numbers", "";
+        /// Most pixels of an image, width times height; a larger one is an error. No side may exceed 65535 in any
+        /// case.
+        max_image_pixels: i64 = LARGEST_IMAGE, [1, LARGEST_IMAGE], "px", "";
     }
 }
 

@@ -18,17 +18,58 @@ pub struct History {
     pub timestamp_ns: Option<i64>,
 }
 
+/// How much a frame may hold, by the parameters of the handle. The C ABI asks before it touches what a frame points to,
+/// as a size that is a mistake leads out of the caller's memory.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    detections: usize,
+    embedding_dimension: usize,
+    image_pixels: usize,
+}
+
+impl Limits {
+    /// Those of a configuration.
+    pub fn of(common: &CommonParameters) -> Self {
+        Self {
+            detections: common.max_detections as usize,
+            embedding_dimension: common.max_embedding_dimension as usize,
+            image_pixels: common.max_image_pixels as usize,
+        }
+    }
+
+    /// Refuses too many detections.
+    pub fn check_detections(&self, count: usize) -> Result<(), Error> {
+        within("detections", count, self.detections, "max_detections")
+    }
+
+    /// Refuses embeddings that are too long.
+    pub fn check_embedding_dimension(&self, dimension: usize) -> Result<(), Error> {
+        within("frame.embedding_dimension", dimension, self.embedding_dimension, "max_embedding_dimension")
+    }
+
+    /// Refuses an image of too many pixels.
+    pub fn check_image(&self, width: u32, height: u32) -> Result<(), Error> {
+        // No overflow where addresses have 32 bits, as a side has 16.
+        within(
+            "image.width times image.height",
+            width as usize * height as usize,
+            self.image_pixels,
+            "max_image_pixels",
+        )
+    }
+}
+
+fn within(what: &'static str, count: usize, limit: usize, parameter: &'static str) -> Result<(), Error> {
+    if count > limit {
+        return Err(Error::Limit { what, count, limit, parameter });
+    }
+    Ok(())
+}
+
 /// Checks everything about a frame.
 pub fn check_frame(frame: &Frame<'_>, common: &CommonParameters, history: &History) -> Result<(), Error> {
-    let limit = common.max_detections as usize;
-    if frame.detections.len() > limit {
-        return Err(Error::Limit {
-            what: "detections",
-            count: frame.detections.len(),
-            limit,
-            parameter: "max_detections",
-        });
-    }
+    let limits = Limits::of(common);
+    limits.check_detections(frame.detections.len())?;
     if frame.detector_skipped && !frame.detections.is_empty() {
         let reason = format!("is set, yet there are {} detections", frame.detections.len());
         return Err(Error::Frame { field: "detector_skipped", reason });
@@ -36,7 +77,11 @@ pub fn check_frame(frame: &Frame<'_>, common: &CommonParameters, history: &Histo
     for (row, detection) in frame.detections.iter().enumerate() {
         check_detection(row, detection)?;
     }
+    if let Some(image) = &frame.image {
+        limits.check_image(image.width(), image.height())?;
+    }
     if let Some(embeddings) = &frame.embeddings {
+        limits.check_embedding_dimension(embeddings.dimension)?;
         check_embeddings(embeddings, frame.detections.len(), history.embedding_dimension)?;
     }
     if let Some(motion) = &frame.camera_motion {
@@ -68,14 +113,11 @@ fn check_detection(row: usize, detection: &Detection) -> Result<(), Error> {
     Ok(())
 }
 
-/// Largest number of components of an embedding.
-pub const MAX_EMBEDDING_DIMENSION: usize = 16_384;
-
 fn check_embeddings(embeddings: &Embeddings<'_>, rows: usize, known: Option<usize>) -> Result<(), Error> {
     let refuse = |field, reason| Err(Error::Embeddings { field, reason });
     let Embeddings { data, dimension, stride } = *embeddings;
-    if dimension == 0 || dimension > MAX_EMBEDDING_DIMENSION {
-        return refuse("embedding_dimension", format!("is {dimension}, must be in 1..={MAX_EMBEDDING_DIMENSION}"));
+    if dimension == 0 {
+        return refuse("embedding_dimension", "is 0, must be at least 1".to_string());
     }
     if let Some(known) = known.filter(|k| *k != dimension) {
         return refuse("embedding_dimension", format!("is {dimension}, earlier frames had {known}"));

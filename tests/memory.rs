@@ -1,45 +1,10 @@
 //! Memory is bounded: nothing about an ended track is kept, and once warm a step allocates nothing. Counted by the
 //! allocator itself, hence a test binary of its own with a single test.
 
-// A global allocator cannot be written without.
-#![allow(unsafe_code)]
+mod counting;
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
-
+use counting::{ALLOCATIONS, LIVE_BYTES};
 use gentrack2::{Algorithm, CameraMotion, Config, Detection, Embeddings, Frame, ImageView, PixelFormat, Tracker};
-
-// Per thread, so that what the test harness does meanwhile does not count.
-thread_local! {
-    static LIVE_BYTES: Cell<i64> = const { Cell::new(0) };
-    static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
-}
-
-/// Counts in this thread; a thread at its end no longer counts.
-fn count(bytes: i64, allocations: u64) {
-    let _ = LIVE_BYTES.try_with(|live| live.set(live.get() + bytes));
-    let _ = ALLOCATIONS.try_with(|n| n.set(n.get() + allocations));
-}
-
-struct Counting;
-
-// SAFETY: every call is passed on unchanged to the system's allocator, which keeps the contract.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        count(layout.size() as i64, 1);
-        // SAFETY: the caller keeps `alloc`'s contract.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        count(-(layout.size() as i64), 0);
-        // SAFETY: the pointer came from `alloc` with this layout, and so from the system's allocator.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
 
 const WIDTH: u32 = 320;
 const HEIGHT: u32 = 240;

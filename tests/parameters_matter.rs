@@ -131,6 +131,8 @@ fn setups(algorithm: Algorithm) -> Vec<Setup> {
         new(stage::turn_while_hidden(2), NOTHING, &[]),
         new(comings_and_goings(), NOTHING, &[]),
         new(crowd(), CLASSES, &[]),
+        // Few look at images; too large a one all refuse.
+        new(Scene { duration: 0.1, ..crowd() }, IMAGE, &[]),
     ];
     let given_more = [
         new(crowd(), EMBEDDINGS, &[]),

@@ -5,6 +5,7 @@ use super::status::*;
 use crate::error::Error;
 use crate::frame::Detection;
 use crate::geometry::Rect;
+use crate::validation::Limits;
 
 /// One detection. All zero is an empty box of score 0, which is legal. Boxes may reach or lie outside the image.
 #[repr(C)]
@@ -40,7 +41,7 @@ pub(super) unsafe fn read_detections(
     rows: *const gt2_detection,
     count: usize,
     stride: usize,
-    limit: usize,
+    limits: &Limits,
     into: &mut Vec<Detection>,
 ) -> Result<(), Failure> {
     into.clear();
@@ -48,10 +49,7 @@ pub(super) unsafe fn read_detections(
         return Ok(());
     }
     require(rows, "frame.detections")?;
-    if count > limit {
-        // Before anything is read, as a count that is a mistake leads out of the array.
-        return Err(Error::Limit { what: "detections", count, limit, parameter: "max_detections" }.into());
-    }
+    limits.check_detections(count)?;
     let stride = if stride == 0 { FIRST_SIZE } else { stride };
     let most = isize::MAX as usize / count;
     if !(FIRST_SIZE..=most).contains(&stride) {

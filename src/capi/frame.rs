@@ -6,7 +6,7 @@ use super::pointer::{require, slice};
 use super::status::*;
 use super::structs::{self, SizedStruct};
 use crate::frame::{CameraMotion, Detection, Embeddings, Frame};
-use crate::validation::MAX_EMBEDDING_DIMENSION;
+use crate::validation::Limits;
 
 /// What is known about one frame. Start from `GT2_FRAME_INIT`, or from all zeros, and fill in what there is. All
 /// memory it points to is the caller's and is read during `gt2_tracker_step` only.
@@ -25,7 +25,8 @@ pub struct gt2_frame {
     /// Appearance embeddings (re-identification features) of the detections, one row per detection in the same
     /// order, finite; NULL if there are none. They need not be normalised.
     pub embeddings: *const f32,
-    /// Floats per embedding, in 1..=16384, the same for all frames until the tracker is reset; 0 without embeddings.
+    /// Floats per embedding, at most the parameter max_embedding_dimension, the same for all frames until the tracker
+    /// is reset; 0 without embeddings.
     pub embedding_dimension: usize,
     /// Floats from the start of one embedding to the start of the next; 0 for `embedding_dimension`.
     pub embedding_stride: usize,
@@ -65,7 +66,7 @@ unsafe impl SizedStruct for gt2_frame {
 /// during `'a`.
 pub(super) unsafe fn read_frame<'a>(
     frame: *const gt2_frame,
-    max_detections: usize,
+    limits: &Limits,
     detections: &'a mut Vec<Detection>,
 ) -> Result<Frame<'a>, Failure> {
     // SAFETY: the caller's promise, here and below.
@@ -74,8 +75,8 @@ pub(super) unsafe fn read_frame<'a>(
     let detector_skipped = flag(f.detector_skipped, "detector_skipped")?;
     // SAFETY: as above.
     unsafe {
-        read_detections(f.detections, f.detection_count, f.detection_stride, max_detections, detections)?;
-        let image = if f.image.is_null() { None } else { Some(read_image(f.image)?) };
+        read_detections(f.detections, f.detection_count, f.detection_stride, limits, detections)?;
+        let image = if f.image.is_null() { None } else { Some(read_image(f.image, limits)?) };
         let camera_motion = if f.camera_motion.is_null() {
             None
         } else {
@@ -85,7 +86,7 @@ pub(super) unsafe fn read_frame<'a>(
         Ok(Frame {
             detections,
             detector_skipped,
-            embeddings: read_embeddings(&f)?,
+            embeddings: read_embeddings(&f, limits)?,
             image,
             size,
             camera_motion,
@@ -96,16 +97,16 @@ pub(super) unsafe fn read_frame<'a>(
 
 /// # Safety
 /// See [`read_frame`].
-unsafe fn read_embeddings<'a>(f: &gt2_frame) -> Result<Option<Embeddings<'a>>, Failure> {
+unsafe fn read_embeddings<'a>(f: &gt2_frame, limits: &Limits) -> Result<Option<Embeddings<'a>>, Failure> {
     let (rows, dimension) = (f.detection_count, f.embedding_dimension);
     if dimension == 0 && (f.embeddings.is_null() || rows == 0) {
         return Ok(None);
     }
     let stride = if f.embedding_stride == 0 { dimension } else { f.embedding_stride };
-    // A senseless dimension or stride is refused, with its reason, by the checks that all frames go through; until
-    // then nothing may be read.
-    let sensible = dimension <= MAX_EMBEDDING_DIMENSION && stride >= dimension;
-    if !sensible || rows == 0 {
+    limits.check_embedding_dimension(dimension)?;
+    // A senseless stride is refused, with its reason, by the checks that all frames go through; until then nothing may be
+    // read.
+    if stride < dimension || rows == 0 {
         return Ok(Some(Embeddings { data: &[], dimension, stride }));
     }
     require(f.embeddings, "frame.embeddings")?;

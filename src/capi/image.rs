@@ -5,6 +5,7 @@ use super::status::*;
 use super::structs::{self, SizedStruct};
 use crate::error::Error;
 use crate::image::{ImageView, PixelFormat};
+use crate::validation::Limits;
 
 /// One byte of brightness per pixel.
 pub const GT2_PIXEL_GRAY8: i32 = 0;
@@ -32,7 +33,7 @@ pub struct gt2_image {
     pub data: *const u8,
     /// Bytes from the start of a row to the start of the next; 0 for rows without padding.
     pub stride: usize,
-    /// Width in pixels, in 1..=65535.
+    /// Width in pixels, in 1..=65535; width times height at most the parameter max_image_pixels.
     pub width: u32,
     /// Height in pixels, in 1..=65535.
     pub height: u32,
@@ -52,7 +53,7 @@ unsafe impl SizedStruct for gt2_image {
 ///
 /// # Safety
 /// `image` can be read up to its stated size, and its memory as stated in the struct does not change during `'a`.
-pub(super) unsafe fn read_image<'a>(image: *const gt2_image) -> Result<ImageView<'a>, Failure> {
+pub(super) unsafe fn read_image<'a>(image: *const gt2_image, limits: &Limits) -> Result<ImageView<'a>, Failure> {
     // SAFETY: the caller's promise.
     let image = unsafe { structs::read(image) }?;
     let refuse = |field, reason| Error::Image { field, reason };
@@ -62,6 +63,7 @@ pub(super) unsafe fn read_image<'a>(image: *const gt2_image) -> Result<ImageView
         return Err(refuse("reserved", format!("is {}, must be 0", image.reserved)).into());
     }
     let (stride, span) = ImageView::layout(image.width, image.height, image.stride, format)?;
+    limits.check_image(image.width, image.height)?;
     require(image.data, "image.data")?;
     // SAFETY: not NULL, of a possible size; the rest is the caller's promise.
     let data = unsafe { std::slice::from_raw_parts(image.data, span) };

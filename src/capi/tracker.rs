@@ -16,6 +16,7 @@ use super::{structs, tables};
 use crate::frame::Detection;
 use crate::track::Output;
 use crate::tracker::Tracker;
+use crate::validation::Limits;
 
 /// Tracks the objects of one video stream. Made by `gt2_tracker_new`, released by `gt2_tracker_free`.
 // C order, so that the header comes first; cbindgen takes types of stated alignment as opaque.
@@ -80,9 +81,9 @@ impl gt2_tracker {
     }
 
     unsafe fn step(&mut self, frame: *const gt2_frame) -> Result<(), Failure> {
-        let limit = self.tracker.config().common.max_detections as usize;
+        let limits = Limits::of(&self.tracker.config().common);
         // SAFETY: passed on to the caller.
-        let frame = unsafe { read_frame(frame, limit, &mut self.detections) }?;
+        let frame = unsafe { read_frame(frame, &limits, &mut self.detections) }?;
         let output = self.tracker.step(&frame)?;
         self.tracks.fill(output);
         Ok(())
