@@ -8,6 +8,8 @@
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
+use crate::faults::{self, Stage};
+
 /// A pair that may be matched, and its price.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Edge {
@@ -65,6 +67,7 @@ impl Assignment {
     /// Solves for `rows` rows and `columns` columns; pairs that `edges` does not list, or that cost more than
     /// `limit`, are inadmissible. `edges` must be sorted by row. Returns for each row its column or [`UNMATCHED`].
     pub fn solve(&mut self, rows: usize, columns: usize, edges: &[Edge], limit: f64) -> &[u32] {
+        faults::point(Stage::Assignment);
         debug_assert!(edges.is_sorted_by_key(|e| e.row));
         self.prepare(rows, columns, edges);
         for row in 0..rows as u32 {

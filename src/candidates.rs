@@ -10,6 +10,7 @@ mod grid;
 mod window;
 
 use crate::assignment::refill;
+use crate::faults::{self, Stage};
 use crate::geometry::Rect;
 
 use grid::Grid;
@@ -133,6 +134,7 @@ impl OverlapSweep {
 
     /// The `(row, column)` whose boxes share an area, sorted by row, then column.
     pub fn pairs(&mut self, rows: &[Rect], columns: &[Rect]) -> &[(u32, u32)] {
+        faults::point(Stage::Candidates);
         let most = LEAST_PER_ROW.max(ROOM / rows.len().max(1));
         let are_not_many = rows.len().saturating_mul(columns.len()) <= NOT_MANY;
         self.pairs.clear();

@@ -1,5 +1,6 @@
 //! Re-identification embeddings: those of a frame as unit vectors, and what a track remembers of them.
 
+use crate::faults::{self, Stage};
 use crate::frame::Embeddings;
 
 /// The embeddings of a frame, scaled to length 1.
@@ -15,6 +16,7 @@ impl UnitRows {
         self.data.clear();
         self.dimension = embeddings.map_or(0, |e| e.dimension);
         let Some(embeddings) = embeddings else { return };
+        faults::point(Stage::Embeddings);
         for row in 0..rows {
             let start = self.data.len();
             self.data.extend(embeddings.row(row).iter().map(|x| *x as f64));

@@ -30,6 +30,10 @@ pub mod classes;
 pub mod config;
 pub mod embedding;
 pub mod error;
+#[cfg(feature = "fault-injection")]
+pub mod faults;
+#[cfg(not(feature = "fault-injection"))]
+mod faults;
 pub mod frame;
 pub mod geometry;
 pub mod image;
@@ -55,6 +59,11 @@ mod manual {
     #[doc = include_str!("../docs/recipes.md")]
     mod recipes {}
 }
+
+#[cfg(all(feature = "fault-injection", not(debug_assertions)))]
+compile_error!(
+    "fault-injection is for tests, which are debug builds: no library for use can be made to fail on demand"
+);
 
 #[cfg(not(any(feature = "gentrack2", feature = "_kalman")))]
 compile_error!("a library without any tracker: enable the feature of at least one, such as gentrack2 or sort");

@@ -1,5 +1,6 @@
 //! What comes back from a step.
 
+use crate::faults::{self, Stage};
 use crate::geometry::{Rect, State};
 
 /// Where a track stands in its life.
@@ -127,6 +128,7 @@ impl Output {
     /// Lists a live track where it belongs, and its identity beside its detection. A track that is not `reported` is
     /// listed by its state.
     pub(crate) fn list(&mut self, track: Track, reported: bool) {
+        faults::point(Stage::Output);
         if let Some(row) = track.detection_index {
             self.track_of_detection[row] = track.id;
         }

@@ -3,6 +3,7 @@
 use crate::classes::ClassRule;
 use crate::config::Config;
 use crate::error::Error;
+use crate::faults::{self, Stage};
 use crate::frame::Frame;
 #[cfg(feature = "snapshot")]
 use crate::snapshot::{self, Decoder, Encoder, SavedConfig};
@@ -81,6 +82,8 @@ pub struct Tracker {
 impl Tracker {
     /// A tracker with a copy of the configuration.
     pub fn new(config: &Config) -> Result<Self, Error> {
+        let key = config.algorithm().name();
+        faults::fallible(Stage::Building, |reason| Error::ParameterValue { key: key.to_string(), reason })?;
         Ok(Self {
             config: config.clone(),
             inner: config.parameters.build_for(config.common.class_policy)?,
@@ -109,6 +112,7 @@ impl Tracker {
 
     /// Advances by one frame. On an error the tracker, its last output included, is as before the call.
     pub fn step(&mut self, frame: &Frame<'_>) -> Result<&Output, Error> {
+        faults::fallible(Stage::Validation, |reason| Error::Frame { field: "detections", reason })?;
         check_frame(frame, &self.config.common, &self.history)?;
         let elapsed = self.elapsed_frames(frame.timestamp_ns);
         self.remember(frame, elapsed);
@@ -170,6 +174,7 @@ impl Tracker {
         let mut state = Encoder::default();
         state.put(&SavedConfig::of(&self.config));
         state.put(&(&self.ids, &self.history, &self.detector, &self.output));
+        faults::point(Stage::Saving);
         self.inner.save(&mut state);
         snapshot::seal(&state.into_bytes())
     }
@@ -180,10 +185,12 @@ impl Tracker {
     /// [`Error::Snapshot`] for bytes that are no snapshot, a damaged one, or one of a later version of the library.
     #[cfg(feature = "snapshot")]
     pub fn load(bytes: &[u8]) -> Result<Self, Error> {
+        faults::fallible(Stage::Loading, Error::Snapshot)?;
         let mut state = Decoder::new(snapshot::open(bytes)?);
         let config = state.take::<SavedConfig>()?.restore()?;
-        let mut tracker = Self::new(&config)?;
+        let mut tracker = Self::new(&config).map_err(snapshot::refused_config)?;
         (tracker.ids, tracker.history, tracker.detector, tracker.output) = state.take()?;
+        faults::fallible(Stage::Loading, Error::Snapshot)?;
         tracker.inner.load(&mut state)?;
         state.finish()?;
         Ok(tracker)

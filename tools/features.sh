@@ -1,5 +1,6 @@
 #!/bin/sh
-# Each tracker compiles as the only one, without a warning; a library of none is refused. Run by `make test`.
+# Each tracker compiles as the only one, without a warning; a library of none is refused. The feature that injects faults
+# does so, and only in debug builds. Run by `make test`.
 set -eu
 cd "$(dirname "$0")/.."
 
@@ -17,3 +18,10 @@ if check --features toml,snapshot 2>/dev/null; then
     exit 1
 fi
 echo "features: $trackers compile alone"
+
+if ! check --release --features sort,fault-injection 2>&1 | grep -q "fault-injection is for tests"; then
+    echo "a library for use can be made to fail" >&2
+    exit 1
+fi
+RUSTFLAGS="-D warnings" cargo test --quiet --locked --target-dir target/features --features fault-injection \
+    --test fault_injection

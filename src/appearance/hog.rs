@@ -9,6 +9,7 @@ use super::descriptor::{CELLS_X, CELLS_Y, Descriptor, EMPTY, normalize};
 use super::gray::sample_row;
 use super::orientation::{BINS, Directions, MAX_VOTE};
 use super::tones::{ASIDE, LEVELS, STRIPES, Stripe, Tones};
+use crate::faults::{self, Stage};
 use crate::geometry::Rect;
 use crate::image::ImageView;
 
@@ -134,6 +135,7 @@ impl HogWorkspace {
     /// Returns false, and describes nothing, when the reference is smaller than [`MIN_WIDTH`] x [`MIN_HEIGHT`], larger
     /// than 1.5 times the image, outside the image, or not finite.
     pub fn prepare(&mut self, image: &ImageView, reference: &Rect, margin: f64) -> bool {
+        faults::point(Stage::Appearance);
         self.frame = Placement::new(image, reference, margin);
         let Some(frame) = self.frame else { return false };
         self.gray.resize(GRAY_STRIDE * (MAX_Y + 2), 0);

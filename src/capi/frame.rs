@@ -5,6 +5,7 @@ use super::image::{gt2_image, read_image};
 use super::pointer::{require, slice};
 use super::status::*;
 use super::structs::{self, SizedStruct};
+use crate::faults::{self, Stage};
 use crate::frame::{CameraMotion, Detection, Embeddings, Frame};
 use crate::validation::Limits;
 
@@ -71,6 +72,7 @@ pub(super) unsafe fn read_frame<'a>(
 ) -> Result<Frame<'a>, Failure> {
     // SAFETY: the caller's promise, here and below.
     let f = unsafe { structs::read(frame) }?;
+    faults::fallible(Stage::Borrowing, Failure::argument)?;
     let has_timestamp = flag(f.has_timestamp, "has_timestamp")?;
     let detector_skipped = flag(f.detector_skipped, "detector_skipped")?;
     // SAFETY: as above.

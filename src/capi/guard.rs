@@ -51,6 +51,26 @@ pub(super) unsafe fn guard_exclusive<H: Handle>(
     })
 }
 
+/// Runs the body of an exported function that makes a handle as new, a poisoned one too.
+///
+/// # Safety
+/// See [`borrow_mut`].
+pub(super) unsafe fn guard_healing<H: Handle>(
+    handle: *mut H,
+    body: impl FnOnce(&mut H) -> Result<(), Failure>,
+) -> gt2_status {
+    guard(|| {
+        // SAFETY: passed on to the caller.
+        let handle = unsafe { borrow_mut(handle) }?;
+        let result = catch(|| body(handle));
+        match result {
+            Ok(()) => handle.header().heal(),
+            Err(_) => poison_if_panicked(handle.header(), &result),
+        }
+        result
+    })
+}
+
 /// Runs a lookup that returns its result directly; on a failure that is `otherwise`.
 pub(super) fn find<T>(otherwise: T, body: impl FnOnce() -> Result<T, Failure>) -> T {
     let mut found = None;

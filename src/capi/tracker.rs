@@ -5,14 +5,15 @@ use std::ptr::null;
 
 use super::config::gt2_config;
 use super::frame::{gt2_frame, read_frame};
-use super::guard::{find_in, guard, guard_exclusive, guard_shared};
-use super::handle::{Handle, Header, borrow_mut, give, take};
+use super::guard::{find_in, guard, guard_exclusive, guard_healing, guard_shared};
+use super::handle::{Handle, Header, give, take};
 use super::neighbourhood::gt2_neighbourhood;
 use super::particle::{gt2_particle, gt2_particle_list};
 use super::pointer::{require, start, store};
 use super::status::*;
 use super::track::*;
 use super::{structs, tables};
+use crate::faults::{self, Stage};
 use crate::frame::Detection;
 use crate::track::Output;
 use crate::tracker::Tracker;
@@ -44,6 +45,7 @@ impl TrackLists {
             (&mut self.tentative, &output.tentative),
             (&mut self.lost, &output.lost),
         ] {
+            faults::point(Stage::Publishing);
             to.clear();
             to.extend(from.iter().map(gt2_track::from));
         }
@@ -93,7 +95,6 @@ impl gt2_tracker {
         // A panic may have left anything behind, so nothing of the old tracker is kept.
         self.tracker = Tracker::new(self.tracker.config())?;
         self.tracks.fill(self.tracker.output());
-        self.header.heal();
         Ok(())
     }
 }
@@ -116,8 +117,13 @@ pub unsafe extern "C" fn gt2_tracker_new(config: *const gt2_config, out: *mut *m
 /// Releases a tracker and all lists borrowed from it; NULL is ignored.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gt2_tracker_free(tracker: *mut gt2_tracker) {
-    // SAFETY: the handle is given up by the caller.
-    guard(|| unsafe { take(tracker) }.map(drop));
+    guard(|| {
+        // SAFETY: the handle is given up by the caller.
+        let taken = unsafe { take(tracker) }?;
+        faults::point(Stage::Freeing);
+        drop(taken);
+        Ok(())
+    });
 }
 
 /// Forgets everything but the config: the next step is as the first of a new tracker, identities start over. Also
@@ -126,12 +132,8 @@ pub unsafe extern "C" fn gt2_tracker_free(tracker: *mut gt2_tracker) {
 /// Errors: `GT2_ERR_NULL_POINTER`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gt2_tracker_reset(tracker: *mut gt2_tracker) -> gt2_status {
-    // Not through `guard_exclusive`, which refuses the poisoned handles that this is for.
-    guard(|| {
-        // SAFETY: a handle by the contract of the header.
-        let tracker = unsafe { borrow_mut(tracker) }?;
-        tracker.reset()
-    })
+    // SAFETY: a handle by the contract of the header.
+    unsafe { guard_healing(tracker, gt2_tracker::reset) }
 }
 
 /// Advances by one frame. Afterwards the functions below tell what became of the tracks; lists borrowed before have

@@ -6,6 +6,7 @@ mod from_toml;
 use std::fmt::Write;
 
 use crate::error::Error;
+use crate::faults::{self, Stage};
 use crate::parameters::{CommonParameters, ParameterSet, ParameterSpec, Value};
 use crate::trackers::{Algorithm, AlgorithmParameters};
 
@@ -51,12 +52,14 @@ impl Config {
 
     /// Sets a parameter; on an error nothing changes.
     pub fn set(&mut self, key: &str, value: &Value) -> Result<(), Error> {
+        configuring(key)?;
         let (set, index) = self.locate(key)?;
         set.set(index, value)
     }
 
     /// Sets a parameter from text, as on a command line. The key `preset` loads a named set of values.
     pub fn set_text(&mut self, key: &str, text: &str) -> Result<(), Error> {
+        configuring(key)?;
         if key == "preset" {
             return self.load_preset(text);
         }
@@ -106,6 +109,10 @@ impl Config {
         let Some(index) = self.common.find(key) else { return Err(self.unknown(key)) };
         Ok((&mut self.common, index))
     }
+}
+
+fn configuring(key: &str) -> Result<(), Error> {
+    faults::fallible(Stage::Configuration, |reason| Error::ParameterValue { key: key.to_string(), reason })
 }
 
 #[cfg(test)]

@@ -87,13 +87,17 @@ impl SavedConfig {
     }
 
     pub fn restore(&self) -> Result<Config, Error> {
-        let wrong = |e: Error| Error::Snapshot(format!("has a configuration that this library refuses: {e}"));
-        let mut config = Config::new(&self.algorithm).map_err(wrong)?;
+        let mut config = Config::new(&self.algorithm).map_err(refused_config)?;
         for (key, value) in &self.settings {
-            config.set_text(key, value).map_err(wrong)?;
+            config.set_text(key, value).map_err(refused_config)?;
         }
         Ok(config)
     }
+}
+
+/// What is wrong with a configuration is wrong with the snapshot that has it.
+pub(crate) fn refused_config(error: Error) -> Error {
+    Error::Snapshot(format!("has a configuration that this library refuses: {error}"))
 }
 
 #[cfg(test)]

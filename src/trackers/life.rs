@@ -1,5 +1,6 @@
 //! What every algorithm keeps of a track for its caller: identity, ages, and what came with the detection last taken.
 
+use crate::faults::{self, Stage};
 use crate::frame::Detection;
 use crate::geometry::{Rect, State};
 use crate::track::{Track, TrackState};
@@ -25,11 +26,13 @@ pub struct Life {
 impl Life {
     /// A life that begins with a detection.
     pub fn begin(id: u64, row: u32, detection: &Detection) -> Self {
+        faults::point(Stage::Birth);
         Self { id, last: *detection, row: Some(row), frames: 1, hits: 1, frames_since_match: 0 }
     }
 
     /// A frame later, nothing taken yet.
     pub fn next_frame(&mut self) {
+        faults::point(Stage::Prediction);
         self.row = None;
         self.frames = self.frames.saturating_add(1);
         self.frames_since_match = self.frames_since_match.saturating_add(1);
@@ -37,6 +40,7 @@ impl Life {
 
     /// Takes a detection of this frame.
     pub fn take(&mut self, row: u32, detection: &Detection) {
+        faults::point(Stage::Update);
         self.last = *detection;
         self.row = Some(row);
         self.hits = self.hits.saturating_add(1);

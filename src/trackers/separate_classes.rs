@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use super::{AlgorithmParameters, TrackingAlgorithm};
 use crate::error::Error;
+use crate::faults::{self, Stage};
 use crate::frame::{Detection, Embeddings, Frame};
 #[cfg(feature = "snapshot")]
 use crate::snapshot::{Decoder, Encoder};
@@ -53,6 +54,7 @@ impl SeparateClasses {
 
     /// Sorts the rows by class, and sees to it that each class has a tracker.
     fn sort(&mut self, frame: &Frame<'_>) {
+        faults::point(Stage::ClassSplit);
         let class = |row: u32| frame.detections[row as usize].class_id;
         self.order.clear();
         self.order.extend(0..frame.detections.len() as u32);
@@ -112,6 +114,7 @@ impl TrackingAlgorithm for SeparateClasses {
     fn save(&self, state: &mut Encoder) {
         state.put(&self.classes.len());
         for (class, tracker) in &self.classes {
+            faults::point(Stage::Saving);
             state.put(&(class, tracker.live));
             tracker.inner.save(state);
         }
@@ -121,6 +124,7 @@ impl TrackingAlgorithm for SeparateClasses {
     fn load(&mut self, state: &mut Decoder<'_>) -> Result<(), Error> {
         self.classes.clear();
         for _ in 0..state.take::<usize>()? {
+            faults::fallible(Stage::Loading, Error::Snapshot)?;
             let (class, live) = state.take()?;
             let mut tracker = ClassTracker { live, ..ClassTracker::new(&self.parameters) };
             tracker.inner.load(state)?;
@@ -141,6 +145,7 @@ impl TrackingAlgorithm for SeparateClasses {
 
 /// Adds what became of the detections `rows` to the whole.
 fn merge(part: &Output, rows: &[u32], whole: &mut Output) {
+    faults::point(Stage::ClassMerge);
     let in_frame = |track: &Track| Track { detection_index: track.detection_index.map(|i| rows[i] as usize), ..*track };
     whole.reported.extend(part.reported.iter().map(in_frame));
     whole.tentative.extend(part.tentative.iter().map(in_frame));

@@ -5,6 +5,7 @@ use super::life::{Life, SMALLEST, presentable, presentable_velocity};
 use super::sort_family::{FullAssociation, Run, list_and_remove};
 use crate::assignment::UNMATCHED;
 use crate::error::Error;
+use crate::faults::{self, Stage};
 use crate::frame::{Detection, Frame};
 use crate::geometry::Rect;
 use crate::kalman::{AreaRatio, Measurement, is_sane};
@@ -84,6 +85,7 @@ impl Sort {
     }
 
     fn associate(&mut self, frame: &Frame<'_>, context: &StepContext<'_>) {
+        faults::point(Stage::Association);
         let Self { parameters: p, tracks, rows, association } = self;
         let detection = |row: u32| &frame.detections[row as usize];
         let usable = |d: &Detection| d.rect.height >= SMALLEST && d.score >= p.min_score;

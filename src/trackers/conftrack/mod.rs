@@ -12,6 +12,7 @@ use super::TrackingAlgorithm;
 use super::overlaps::Extent;
 use super::pairing::Pairing;
 use crate::embedding::{MeanEmbedding, UnitRows};
+use crate::faults::{self, Stage};
 use crate::frame::Frame;
 use crate::kalman::{BoxFilter, is_sane};
 #[cfg(feature = "snapshot")]
@@ -78,6 +79,7 @@ impl ConfTrack {
     }
 
     fn remove(&mut self, output: &mut Output, is_over: impl Fn(&ConfTrackTrack) -> bool) {
+        faults::point(Stage::Removal);
         for track in self.tracks.extract_if(.., |t| is_over(t)) {
             output.ended.push(track.life.id);
             self.work.retire(track.embedding);
@@ -118,6 +120,7 @@ impl ConfTrack {
 
     /// Lets tracks take detections; those without one stay in their list.
     fn round(&mut self, round: Round, frame: &Frame<'_>, context: &StepContext<'_>) {
+        faults::point(Stage::Association);
         let Self { parameters: p, tracks, work } = self;
         let Workspace { pairing, embeddings, trusted, doubtful, high, low, .. } = work;
         let detection = |row: u32| &frame.detections[row as usize];

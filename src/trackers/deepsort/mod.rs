@@ -12,6 +12,7 @@ use super::overlaps::Extent;
 use super::pairing::Pairing;
 use crate::assignment::Edge;
 use crate::embedding::{Gallery, UnitRows};
+use crate::faults::{self, Stage};
 use crate::frame::{Detection, Frame};
 use crate::geometry::Rect;
 use crate::kalman::{AspectHeight, BoxFilter, is_sane};
@@ -117,6 +118,7 @@ impl DeepSort {
     }
 
     fn remove(&mut self, output: &mut Output, is_over: impl Fn(&DeepTrack) -> bool) {
+        faults::point(Stage::Removal);
         for track in self.tracks.extract_if(.., |t| is_over(t)) {
             output.ended.push(track.life.id);
             self.work.retire(track.gallery);
@@ -125,6 +127,7 @@ impl DeepSort {
 
     /// Confirmed tracks by their looks within the gate of their motion, those that were seen last first.
     fn cascade(&mut self, frame: &Frame<'_>, context: &StepContext<'_>) {
+        faults::point(Stage::Association);
         let (p, tracks, work) = (&self.parameters, &mut self.tracks, &mut self.work);
         // Missed for the first time it is sought however long the detector has rested.
         let in_time = |t: &DeepTrack| !is_beyond(t.missed, p.max_age as f64) || t.missed_frames == 1 && p.max_age > 0;
@@ -154,6 +157,7 @@ impl DeepSort {
 
     /// Tentative tracks, and confirmed ones that are missed for the first time, by IoU.
     fn overlap_round(&mut self, frame: &Frame<'_>, context: &StepContext<'_>) {
+        faults::point(Stage::Association);
         let (p, tracks, work) = (&self.parameters, &mut self.tracks, &mut self.work);
         work.step.clear();
         work.step.extend((0..).zip(tracks.iter()).filter(|(_, t)| !t.confirmed).map(|(i, _)| i));

@@ -46,6 +46,7 @@ pub use parameters::*;
 
 use crate::candidates::OverlapSweep;
 use crate::classes::ClassRule;
+use crate::faults::{self, Stage};
 use crate::frame::Frame;
 use crate::geometry::State;
 #[cfg(feature = "snapshot")]
@@ -168,6 +169,7 @@ impl GenTrack2 {
         work.predictions.clear();
         work.predictions.extend(targets.iter().map(|t| (t.predicted, t.velocity)));
         for (index, target) in targets.iter_mut().enumerate().filter(|(_, target)| !target.dormant) {
+            faults::point(Stage::Particles);
             resampling::refill(target, p.particles as usize);
             particle_sampling::sample(p, target, ticks);
             let looking = p.lambda_s > 0.0
@@ -180,6 +182,7 @@ impl GenTrack2 {
     }
 
     fn associate(&mut self, frame: &Frame<'_>, rule: ClassRule) {
+        faults::point(Stage::Association);
         let work = &mut self.work;
         if self.parameters.crowd_cost > 0.0 {
             work.observations.measure_crowd(rule);
@@ -305,6 +308,7 @@ impl GenTrack2 {
 
     /// `full` says that there is no room for new tracks: then nobody is only remembered.
     fn remove_expired(&mut self, frame_size: Option<(u32, u32)>, full: bool, output: &mut Output) {
+        faults::point(Stage::Removal);
         let (p, work, memory) = (&self.parameters, &mut self.work, &mut self.memory);
         let record = &mut memory.record;
         let ended = memory.targets.extract_if(.., |target| {

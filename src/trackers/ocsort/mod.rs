@@ -19,6 +19,7 @@ use super::TrackingAlgorithm;
 use super::life::SMALLEST;
 use super::sort_family::{Extra, FullAssociation, list_and_remove};
 use crate::assignment::UNMATCHED;
+use crate::faults::{self, Stage};
 use crate::frame::{Detection, Frame};
 use crate::geometry::Rect;
 use crate::kalman::is_sane;
@@ -112,6 +113,7 @@ impl OcSort {
 
     /// Predictions with high scores: IoU, and how well the direction towards the detection goes with the track's own.
     fn first_round(&mut self, detections: &[Detection], context: &StepContext<'_>) {
+        faults::point(Stage::Association);
         let (p, Workspace { high, views, association, .. }) = (&self.parameters, &mut self.work);
         let detection = |d: u32| &detections[high[d as usize] as usize];
         let view = |t: u32| &views[t as usize];
@@ -167,6 +169,7 @@ impl OcSort {
         high: bool,
         place: impl Fn(&ObservedTrack) -> Rect,
     ) -> bool {
+        faults::point(Stage::Association);
         let (p, work) = (&self.parameters, &mut self.work);
         let rows = if high { &work.high } else { &work.low };
         let (tracks, unmatched, association) = (&self.tracks, &work.unmatched, &mut work.association);

@@ -9,6 +9,7 @@ mod run;
 pub use full_association::{Extra, FullAssociation, too_many};
 pub use run::Run;
 
+use crate::faults::{self, Stage};
 use crate::track::{Output, Track};
 
 /// Judges the tracks from the newest to the oldest: lists those that stay, ends those that go. One walk, for in a large
@@ -34,6 +35,7 @@ pub fn list_and_remove<T>(
     if all_stay {
         return;
     }
+    faults::point(Stage::Removal);
     for track in tracks.extract_if(.., |t| is_over(t)) {
         output.ended.push(shown(&track).0.id);
         retire(track);

@@ -15,6 +15,7 @@ pub use cost::Looks;
 pub(super) use parameters::two_round_parameters;
 
 use crate::embedding::{MeanEmbedding, UnitRows};
+use crate::faults::{self, Stage};
 use crate::frame::Frame;
 use crate::kalman::{BoxFilter, is_sane};
 #[cfg(feature = "snapshot")]
@@ -185,6 +186,7 @@ impl<F: BoxFilter> TwoRound<F> {
 
     /// Lets the pool take detections; those without one stay in it.
     fn round(&mut self, round: Round, frame: &Frame<'_>, context: &StepContext<'_>) {
+        faults::point(Stage::Association);
         let Self { rules, members, work, now, .. } = self;
         let Workspace { pairing, embeddings, pool, high, low, .. } = work;
         let detection = |row: u32| &frame.detections[row as usize];
@@ -252,6 +254,7 @@ impl<F: BoxFilter> TwoRound<F> {
                 self.tracked = work.next.len();
             }
         }
+        faults::point(Stage::Removal);
         for member in self.members.drain(..) {
             output.ended.push(member.life.id);
             work.retire(member);
