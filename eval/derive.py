@@ -5,36 +5,10 @@ twister, seeded with strings, a stream of its own for each purpose and person.
 """
 import random
 
+from rows import box_of, by_frame, frame_of
+
 # The classes of MOT17 that are people in full view: pedestrians, and those who stand still.
 PEOPLE = (1, 7)
-
-
-def read_rows(path):
-    """The rows of a MOTChallenge file as lists of strings."""
-    with open(path) as file:
-        lines = (line.strip() for line in file)
-        return [(line if "," in line else line.replace(" ", ",")).split(",") for line in lines if line]
-
-
-def write_rows(path, rows):
-    with open(path, "w") as file:
-        file.writelines(",".join(row) + "\n" for row in rows)
-
-
-def frame_of(row):
-    return int(float(row[0]))
-
-
-def by_frame(rows):
-    frames = {}
-    for row in rows:
-        frames.setdefault(frame_of(row), []).append(row)
-    return frames
-
-
-def box_of(row):
-    """Left, top, width, height."""
-    return tuple(float(value) for value in row[2:6])
 
 
 def iou(a, b):

@@ -4,6 +4,8 @@ import dataclasses
 TRACKERS = ["gentrack2", "sort", "deepsort", "bytetrack", "ocsort", "botsort", "smiletrack", "conftrack"]
 # The only one that draws random numbers.
 RANDOM = "gentrack2"
+# Those that have a use for images.
+LOOKS = ("gentrack2",)
 DEFAULT = ["gentrack2", "paper", *TRACKERS[1:]]
 # These leave it to their user to drop weak detections; 0.6 is where the others have their border between high and low
 # scores. One frame of memory is for higher frame rates than any here.
@@ -38,4 +40,17 @@ def parse(text):
         else:
             raise ValueError(f"unknown entry {piece}; an entry is one of {' '.join(DEFAULT)} or "
                              "NAME=TRACKER:KEY=VALUE,KEY=VALUE")
+    return entries
+
+
+def parse_all(texts, settings):
+    """The entries of several lists, with settings for all that are gentrack2."""
+    entries = [entry for text in texts for entry in parse(text)]
+    names = [entry.name for entry in entries]
+    for name in names:
+        if names.count(name) > 1:
+            raise ValueError(f"two entries are named {name}")
+    for entry in entries:
+        if entry.tracker == "gentrack2":
+            entry.settings += settings
     return entries

@@ -1,63 +1,24 @@
 """The set-ups: which sequences with which detections, and how they are judged."""
-import configparser
 import dataclasses
 import os
 import shutil
-import subprocess
-import typing
 
+import dataset
 import derive
+import frames
+import judge
+import rows
 import store
+from evaluation import Setup
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 MOT17 = ["MOT17-02", "MOT17-04", "MOT17-05", "MOT17-09", "MOT17-11"]
 # The paper's set-up is one sequence.
 PAPERS = "MOT17-04"
 MOT15 = ["ADL-Rundle-6", "ETH-Sunnyday", "PETS09-S2L1", "TUD-Campus", "TUD-Stadtmitte"]
-# This sequence has no video of its own: its frames are those of OpenCV's sample video.
-SAMPLE_VIDEO = "PETS09-S2L1"
 
 
 class Missing(Exception):
     """Data that a set-up needs is not there."""
-
-
-@dataclasses.dataclass
-class Sequence:
-    name: str
-    det: str
-    gt: str
-    frames: typing.Optional[int] = None
-    size: typing.Optional[str] = None
-    fps: typing.Optional[float] = None
-    gmc: typing.Optional[str] = None
-    video: typing.Optional[str] = None
-
-    def arguments(self):
-        """What gt2_mot is told about the sequence, as option and value; values of FILES are paths."""
-        given = [("--det", self.det), ("--gmc", self.gmc), ("--video", self.video)]
-        # A video says itself how large it is.
-        given += [("--size", None if self.video else self.size), ("--frames", self.frames)]
-        given += [("--fps", None if self.fps is None else f"{self.fps:g}")]
-        return [(option, str(value)) for option, value in given if value is not None]
-
-
-# The options whose values are files.
-FILES = ("--det", "--gmc", "--video")
-
-
-@dataclasses.dataclass
-class Setup:
-    name: str
-    title: str
-    sequences: list
-    # How the judge counts: "full" or "half", and whether all people count.
-    split: str
-    humans: bool
-
-    def judge_options(self):
-        options = ["--split", self.split] + (["--humans"] if self.humans else [])
-        return options + ["--seq"] + [sequence.name for sequence in self.sequences]
 
 
 TITLES = {
@@ -91,7 +52,6 @@ def expand(text):
 class Builder:
     def __init__(self, data, cache, seed):
         self.data, self.cache, self.seed = data, cache, seed
-        self.sample = None
 
     def path(self, *parts):
         path = os.path.join(self.data, *parts)
@@ -100,15 +60,10 @@ class Builder:
         return path
 
     def sequence(self, collection, name, det="det.txt", gmc=False):
-        sequence = Sequence(name, self.path(collection, name, det), self.path(collection, name, "gt.txt"))
+        sequence = dataset.Sequence(name, self.path(collection, name, det), self.path(collection, name, "gt.txt"))
         ini = os.path.join(self.data, collection, name, "seqinfo.ini")
         if os.path.exists(ini):
-            info = configparser.ConfigParser()
-            info.read(ini)
-            info = info["Sequence"]
-            sequence.frames = int(info["seqLength"])
-            sequence.size = f"{info['imWidth']}x{info['imHeight']}"
-            sequence.fps = float(info["frameRate"])
+            sequence = dataclasses.replace(sequence, **dataset.read_info(ini)[0])
         if gmc:
             sequence.gmc = self.path(collection, name, "gmc.txt")
         return sequence
@@ -116,7 +71,7 @@ class Builder:
     def derived(self, sources, recipe, make):
         """A directory of files made once from the sources by make(directory); any change of sources, recipe or
         derive.py makes a new one."""
-        key = store.key("derived", recipe, *[store.content(path) for path in [derive.__file__, *sources]])
+        key = store.key("derived", recipe, *[store.content(path) for path in [derive.__file__, rows.__file__, *sources]])
         directory = os.path.join(self.cache, "derived", key)
         if not os.path.isdir(directory):
             part = f"{directory}.{os.getpid()}"
@@ -131,9 +86,9 @@ class Builder:
     def degraded(self, sequence):
         def make(directory):
             width, height = (int(value) for value in sequence.size.split("x"))
-            rows = derive.degrade(derive.read_rows(sequence.det), derive.read_rows(sequence.gt), width, height,
-                                  sequence.frames, self.seed)
-            derive.write_rows(f"{directory}/det.txt", rows)
+            worse = derive.degrade(rows.read_rows(sequence.det), rows.read_rows(sequence.gt), width, height,
+                                   sequence.frames, self.seed)
+            rows.write_rows(f"{directory}/det.txt", worse)
 
         directory = self.derived([sequence.det, sequence.gt], f"degraded/{self.seed}", make)
         return dataclasses.replace(sequence, det=f"{directory}/det.txt")
@@ -141,7 +96,7 @@ class Builder:
     def slower(self, sequence, step):
         def make(directory):
             for name, source in (("det.txt", sequence.det), ("gt.txt", sequence.gt)):
-                derive.write_rows(f"{directory}/{name}", derive.subsample(derive.read_rows(source), step))
+                rows.write_rows(f"{directory}/{name}", derive.subsample(rows.read_rows(source), step))
             motion = derive.compose_motion(sequence.gmc, step)
             with open(f"{directory}/gmc.txt", "w") as file:
                 file.writelines(" ".join(row) + "\n" for row in motion)
@@ -152,20 +107,18 @@ class Builder:
                                    frames=derive.subsampled_length(sequence.frames, step))
 
     def video(self, name):
-        if name != SAMPLE_VIDEO:
+        if name != frames.SAMPLE_SEQUENCE:
             return self.path("mot15", name, "video.mp4")
-        if self.sample is None:
-            done = subprocess.run(["tools/sample-video.sh", "out"], cwd=ROOT, capture_output=True, text=True)
-            if done.returncode:
-                raise Missing("vtest.avi, the images of PETS09-S2L1: " + done.stderr.strip()[-300:])
-            self.sample = os.path.join(ROOT, done.stdout.strip())
-        return self.sample
+        try:
+            return frames.sample_video()
+        except frames.NoVideo as error:
+            raise Missing(str(error)) from None
 
     def mot15(self, images):
         sequences = [self.sequence("mot15", name, "det-frcnn.txt") for name in MOT15]
         if images:
             for sequence in sequences:
-                sequence.video = self.video(sequence.name)
+                sequence.images = self.video(sequence.name)
         return sequences
 
     def dancetrack(self):
@@ -174,13 +127,13 @@ class Builder:
 
     def build(self, name):
         """The set-up of that name; raises Missing."""
-        humans = name in ("P", "Ws", "Wf", "R")
-        split = "half" if name in ("H", "L2", "L4") else "full"
+        rules = judge.Rules("half" if name in ("H", "L2", "L4") else "full",
+                            judge.PEOPLE if name in ("P", "Ws", "Wf", "R") else None)
         if name in ("H", "L2", "L4"):
             sequences = [self.sequence("mot17", each, gmc=True) for each in MOT17]
             if name != "H":
                 sequences = [self.slower(each, int(name[1:])) for each in sequences]
-        elif humans:
+        elif rules.classes:
             det = {"Ws": "det-sdp.txt", "Wf": "det-frcnn.txt"}.get(name, "det.txt")
             sequences = [self.sequence("mot17", PAPERS, det)]
             if name == "R":
@@ -189,4 +142,4 @@ class Builder:
             sequences = self.dancetrack()
         else:
             sequences = self.mot15(images=name == "I")
-        return Setup(name, TITLES[name], sequences, split, humans)
+        return Setup(name, TITLES[name], sequences, rules)

@@ -1,13 +1,11 @@
-"""The two kinds of work that are done in parallel: to run a tracker and to judge its tracks."""
-import contextlib
-import functools
-import io
+"""The work that is done in parallel: to run a tracker, to judge its tracks, or both."""
 import json
 import os
+import re
 import subprocess
-import sys
 import tempfile
 
+import judge as judge_module
 import store
 
 
@@ -15,47 +13,44 @@ class Failed(Exception):
     """A program said that it could not do its work."""
 
 
+def time_of(out):
+    """The file beside a file of tracks that tells how long the tracker took."""
+    return f"{out}.time"
+
+
 def track(command, out):
-    """Runs gt2_mot; its tracks are in the file `out` afterwards."""
+    """Runs gt2_mot; its tracks are in the file `out` afterwards, and the time of its steps in time_of(out)."""
     os.makedirs(os.path.dirname(out), exist_ok=True)
     handle, part = tempfile.mkstemp(dir=os.path.dirname(out), suffix=".part")
     os.close(handle)
     try:
-        done = subprocess.run([*command, "--out", part], capture_output=True, text=True)
-        if done.returncode:
+        done = subprocess.run([*command, "--time", "--out", part], capture_output=True, text=True)
+        times = re.search(r"steps (\d+), .*median ([\d.]+) us", done.stderr)
+        if done.returncode or not times:
             raise Failed(f"{' '.join(command)}\n{done.stderr.strip() or f'ended with {done.returncode}'}")
+        store.write(time_of(out), json.dumps({"steps": int(times[1]), "median": float(times[2])}))
         os.replace(part, out)
     finally:
         if os.path.exists(part):
             os.remove(part)
 
 
-@functools.lru_cache(maxsize=None)
-def script(path):
-    with open(path) as file:
-        return compile(file.read(), path, "exec")
+def judge(out, *arguments):
+    """Has a sequence judged; the result is in the file `out` afterwards."""
+    store.write(out, json.dumps(judge_module.judge(*arguments)))
 
 
-def judge(path, ground_truth, tracks, options):
-    """The judge's table: a dictionary per sequence and for all together. The script is executed in this process, where
-    TrackEval is imported only once; files are given by sequence."""
-    with tempfile.TemporaryDirectory() as work:
-        for kind, files in (("gt", ground_truth), ("res", tracks)):
-            os.mkdir(f"{work}/{kind}")
-            for name, file in files.items():
-                os.symlink(os.path.abspath(file), f"{work}/{kind}/{name}.txt")
-        arguments, output = sys.argv, io.StringIO()
-        sys.argv = [path, "--gt", f"{work}/gt", "--res", f"{work}/res", "--json", *options]
-        try:
-            with contextlib.redirect_stdout(output):
-                exec(script(path), {"__name__": "__main__", "__file__": path})
-        except SystemExit as end:
-            if end.code:
-                raise Failed(f"{path}: {end.code}") from None
-        finally:
-            sys.argv = arguments
-    return json.loads(output.getvalue().strip().splitlines()[-1])
+def score(out, command, truth, rules, metrics):
+    """Runs gt2_mot and has its tracks judged, of which only the result is kept, in the file `out`."""
+    with tempfile.TemporaryDirectory() as directory:
+        tracks = f"{directory}/tracks.txt"
+        track(command, tracks)
+        store.write(out, json.dumps(judge_module.judge(truth, tracks, rules, metrics)))
 
 
-def judge_into(out, *arguments):
-    store.write(out, json.dumps(judge(*arguments)))
+def fingerprint(out, command):
+    """Runs gt2_mot and keeps the hash of its tracks in the file `out`."""
+    with tempfile.TemporaryDirectory() as directory:
+        tracks = f"{directory}/tracks.txt"
+        track(command, tracks)
+        store.write(out, store.content(tracks))
