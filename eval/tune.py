@@ -1,0 +1,135 @@
+#!/usr/bin/env python3
+"""Searches GenTrack2's parameters on your own sequences, and tells on sequences that the search did not see whether they
+are better; see eval/README.md.
+
+May be stopped and started again: it goes on where it was, and with a larger --trials it goes farther.
+"""
+import argparse
+import json
+import os
+import sys
+import time
+
+import entries
+import environment
+import folds
+import parameters
+import program
+import report
+import space
+import store
+
+TRACKER = "gentrack2"
+METRICS = ("HOTA", "IDF1", "MOTA", "ATA")
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    report.data_options(parser)
+    program.common_options(parser)
+    parser.add_argument("--metric", choices=METRICS, default="HOTA", help="what is to become better; default: HOTA")
+    parser.add_argument("--trials", type=int, default=60, metavar="N", help="parameter sets tried per search, of which "
+                        "there is one per fold and one on all sequences; default: 60")
+    parser.add_argument("--time", type=float, metavar="MINUTES", help="stop after this time, whatever --trials says")
+    parser.add_argument("--folds", type=int, default=4, metavar="K", help="groups of sequences, each held out once; "
+                        "default: 4, or as many as there are sequences")
+    parser.add_argument("--parameters", metavar="KEY,...", help="what is searched, or all; default: those that README.md "
+                        "names to try first")
+    parser.add_argument("--reach", type=float, default=2.0, metavar="F", help="numbers are searched from the default "
+                        "divided by this to the default times this; default: 2")
+    parser.add_argument("--seed", type=int, default=0, help="of the search; default: 0")
+    parser.add_argument("--out", default=f"{environment.ROOT}/out/tune", help="directory of gentrack2.toml")
+    options = parser.parse_args()
+    for name, least in (("trials", 1), ("folds", 1)):
+        if getattr(options, name) < least:
+            parser.error(f"--{name} is at least {least}")
+    if options.reach <= 1:
+        parser.error("--reach is more than 1")
+    return options
+
+
+def library_of(path):
+    """The library that a gt2_mot was built with."""
+    return os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(path))), "lib", "libgentrack2.so")
+
+
+def find_space(options, library, trials):
+    """The dimensions that make a difference on these sequences."""
+    dimensions = space.dimensions(library, TRACKER, options.parameters, options.reach)
+    effective = trials.effective(dimensions)
+    idle = [each.key for each in dimensions if each not in effective]
+    if idle:
+        print(f"  without effect here, so left alone: {', '.join(idle)}", file=sys.stderr)
+    if not effective:
+        sys.exit("none of the parameters makes a difference on these sequences: nothing to tune")
+    print(f"  searched: {', '.join(each.key for each in effective)}", file=sys.stderr)
+    return effective
+
+
+def table(rows, metric):
+    lines = [f"{'':<10}{'searched on':>26}{'held out':>26}", f"{metric:<10}" + f"{'default':>13}{'tuned':>13}" * 2]
+    for name, row in rows:
+        cells = "".join(f"{value:13.2f}" if value is not None else f"{'-':>13}"
+                        for value in (row.train_default, row.train, row.held_default, row.held))
+        lines.append(f"{name:<10}{cells}")
+    return "\n".join(lines)
+
+
+def toml(header, dimensions, values):
+    """The values that are not defaults, each with what the library says of it."""
+    lines = [f"# {line}" for line in header] + [f'algorithm = "{TRACKER}"']
+    for each in dimensions:
+        if each.key in values and values[each.key] != each.parameter.default:
+            value = values[each.key]
+            text = f'"{value}"' if each.parameter.kind == parameters.CHOICE else value
+            lines += ["", f"# {each.parameter.documentation}", f"# Default: {each.parameter.default}", f"{each.key} = {text}"]
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    start = time.monotonic()
+    options = arguments()
+    program.prepare(options)
+    import search  # needs what is only there now
+    try:
+        library = parameters.Library(library_of(options.program))
+    except OSError as error:
+        sys.exit(f"the library of {options.program} cannot be loaded: {error}")
+    setup, _ = report.find(options)
+    evaluation = report.evaluation_of(options, setup, [])
+    base = entries.parse_all([TRACKER], options.settings)[0]
+    trials = search.Trials(evaluation, setup, base, options.metric, library)
+    try:
+        dimensions = find_space(options, library, trials)
+    except ValueError as error:
+        sys.exit(str(error))
+    end = start + 60 * options.time if options.time else None
+    searcher = search.Searcher(trials, dimensions, options.trials, end, options.seed,
+                               os.path.join(os.path.abspath(options.out), "search.log"))
+    found, final = folds.cross_validate(searcher, setup.sequences, options.folds)
+    verdict = folds.verdict(found, final)
+
+    names = [f"fold {i + 1}" for i in range(len(found))]
+    text = table([*zip(names, found), ("all", final)], options.metric)
+    print(f"\n{text}\n\n{verdict.text}")
+    header = [f"{options.metric} on {setup.title}: {', '.join(each.name for each in setup.sequences)}",
+              *text.splitlines(), *verdict.text.splitlines()]
+    config = os.path.join(os.path.abspath(options.out), f"{TRACKER}.toml")
+    candidate = os.path.join(os.path.abspath(options.out), "unproven.toml")
+    best = toml(header, dimensions, final.values)
+    if verdict.proven:
+        store.write(config, best)
+        if os.path.exists(candidate):
+            os.remove(candidate)
+    else:
+        store.write(config, toml(header, dimensions, {}))
+        store.write(candidate, best)
+        print(f"{config} has the defaults; what was best where it was searched is in {candidate}")
+    store.write(os.path.join(os.path.abspath(options.out), "tune.json"), json.dumps(
+        {"metric": options.metric, "proven": verdict.proven, "folds": [vars(each) for each in found], "all": vars(final)},
+        indent=1) + "\n")
+    print(config)
+
+
+if __name__ == "__main__":
+    main()
