@@ -11,8 +11,8 @@ export GENTRACK2_SHARED := $(abspath ../shared)
 endif
 endif
 
-.PHONY: help build install package docs demo test arm accuracy bench bench-instructions fuzz sanitize deny \
-    reproducible lint fmt-check clean
+.PHONY: help build install package docs demo test arm eval tune eval-check accuracy bench bench-instructions fuzz \
+    sanitize deny reproducible lint fmt-check clean
 
 help:
 	@echo "make build      the library and the examples, in $(BUILD)/"
@@ -22,6 +22,13 @@ help:
 	@echo "make demo       track OpenCV's sample video; results in out/"
 	@echo "make test       all tests: Rust, C and C++"
 	@echo "make arm        the library for ARM, 64 and 32 bits, and its tests under qemu"
+	@echo "make eval DATA=FOLDER"
+	@echo "                all trackers on your sequences in MOTChallenge's layout: a page, out/eval/index.html;"
+	@echo "                EVAL='--split half --det det-frcnn.txt' and the like are options of eval/report.py"
+	@echo "make tune DATA=FOLDER"
+	@echo "                search gentrack2's parameters for your sequences, METRIC=HOTA TRIALS=60 TIME=MINUTES:"
+	@echo "                out/tune/gentrack2.toml; TUNE='--folds 5' and the like are options of eval/tune.py"
+	@echo "make eval-check reports of synthetic sequences and, where it is, of the measurement data, looked at in Chromium"
 	@echo "make accuracy   a table of all trackers on all set-ups of eval/README.md, if GENTRACK2_SHARED names the data;"
 	@echo "                ACCURACY='--entries gentrack2 --setups H,P' and the like are options of eval/evaluate.py"
 	@echo "make bench      speed and memory beside other crates' trackers and OpenCV, in about ten minutes: out/bench.md;"
@@ -42,7 +49,7 @@ help:
 build:
 	@tools/install-needs.sh build
 	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release
-	@cmake --build $(BUILD) --parallel $(JOBS)
+	@cmake --build $(BUILD) --parallel $(JOBS) $(if $(TARGET),--target $(TARGET))
 
 # A configuration of its own, which needs neither OpenCV nor C++ programs; cargo's results are shared.
 install:
@@ -77,8 +84,30 @@ arm:
 	@if tools/arm-rust.sh armhf $(BUILD)/arm/rust >/dev/null 2>&1; then tools/arm.sh $(BUILD) armhf; \
 	    else echo "32-bit ARM is left out: Rust's standard library for it is not here"; fi
 
+# What eval and tune need before they run.
+define evaluation
+	@if [ -z "$(DATA)" ]; then \
+	    echo "usage: make $@ DATA=FOLDER, a folder of sequences in MOTChallenge's layout; see eval/README.md" >&2; exit 2; fi
+	@tools/install-needs.sh eval
+	@$(MAKE) --no-print-directory build TARGET=gt2_mot
+endef
+
+eval:
+	$(evaluation)
+	@python3 eval/report.py "$(DATA)" $(EVAL)
+
+tune:
+	$(evaluation)
+	@python3 eval/tune.py "$(DATA)" $(if $(METRIC),--metric $(METRIC)) $(if $(TRIALS),--trials $(TRIALS)) \
+	    $(if $(TIME),--time $(TIME)) $(TUNE)
+
+eval-check:
+	@tools/install-needs.sh eval-check
+	@$(MAKE) --no-print-directory build TARGET=gt2_mot
+	@tools/eval-check.sh $(BUILD)
+
 accuracy:
-	@tools/install-needs.sh test
+	@tools/install-needs.sh eval
 	@$(MAKE) --no-print-directory build
 	@python3 eval/evaluate.py $(ACCURACY)
 

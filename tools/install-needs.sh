@@ -1,7 +1,8 @@
 #!/bin/sh
 # Installs the Debian packages that a task needs and this machine lacks; does nothing where all is there.
 #
-#   usage: tools/install-needs.sh build|test|demo|package|docs|arm|bench|bench-instructions|sanitize|deny
+#   usage: tools/install-needs.sh
+#       build|test|demo|package|docs|eval|eval-check|arm|bench|bench-instructions|sanitize|deny
 set -eu
 
 say() { printf '%s\n' "$*" >&2; }
@@ -31,11 +32,19 @@ has make || need make
 has pkg-config || need pkg-config
 has_opencv || need libopencv-dev
 
+if [ "$task" = test ] || [ "$task" = eval ] || [ "$task" = eval-check ]; then
+    has python3 || need python3
+    python3 -c 'import ensurepip' 2>/dev/null || need python3-venv
+fi
+
+if [ "$task" = eval-check ]; then
+    has chromium || need chromium
+    has chromedriver || need chromium-driver
+fi
+
 if [ "$task" = test ]; then
     has clang || need clang
     has nm || need binutils
-    has python3 || need python3
-    python3 -c 'import ensurepip' 2>/dev/null || need python3-venv
     has meson || need meson
     has ninja || need ninja-build
     has abidiff || need abigail-tools

@@ -1,6 +1,6 @@
 """Tracks MOT17's detections with every tracker's default parameters and has TrackEval judge the results.
 
-usage: mot17_accuracy_test.py PROGRAM VENV-DIRECTORY
+usage: mot17_accuracy_test.py PROGRAM VENV-DIRECTORY REQUIREMENTS
 
 GenTrack2 must reach what it promises; the others' numbers are printed (that they are the published algorithms is for
 the conformance tests to show). The sequences are not part of the project; GENTRACK2_SHARED names the directory that
@@ -75,11 +75,11 @@ def measure(program, tracker, shared, names, work):
 
 
 def main():
-    program, directory = sys.argv[1:3]
+    program, directory, requirements = sys.argv[1:4]
     shared = os.environ.get("GENTRACK2_SHARED")
     if not shared:
         own_venv.skip("GENTRACK2_SHARED does not name the measurement data")
-    own_venv.enter(directory, "trackeval")
+    own_venv.enter(directory, "--no-deps", "-r", requirements)
     names = sorted(name for name in os.listdir(f"{shared}/mot17") if name.startswith("MOT17-"))
     assert len(names) == 5, names
     with tempfile.TemporaryDirectory() as work:

@@ -1,6 +1,6 @@
 """The identity switches that compare counts are those that TrackEval counts, on real sequences.
 
-usage: switches_judged_test.py COMPARE GT2_MOT VENV-DIRECTORY
+usage: switches_judged_test.py COMPARE GT2_MOT VENV-DIRECTORY REQUIREMENTS
 
 The sequences are not part of the project; GENTRACK2_SHARED names the directory that has mot15/, mot17/ and
 tools/eval_mot.py. Exit status 77 (skipped) where it is not set or TrackEval cannot be installed.
@@ -36,11 +36,11 @@ def judged(shared, work, name):
 
 
 def main():
-    compare, gt2_mot, directory = sys.argv[1:4]
+    compare, gt2_mot, directory, requirements = sys.argv[1:5]
     shared = os.environ.get("GENTRACK2_SHARED")
     if not shared:
         own_venv.skip("GENTRACK2_SHARED does not name the measurement data")
-    own_venv.enter(directory, "trackeval")
+    own_venv.enter(directory, "--no-deps", "-r", requirements)
     total = 0
     for path, detections, frames, size in SEQUENCES:
         name = os.path.basename(path)
