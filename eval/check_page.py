@@ -94,11 +94,15 @@ def check(browser, address, trackers, width):
     for section in all_of("#sequences details"):
         if section.get_attribute("open") is None:
             section.find_element(By.TAG_NAME, "summary").click()
-        demand(len(section.find_elements(By.CSS_SELECTOR, "tbody tr")) == len(trackers), "a sequence's table lacks rows")
+        demand(
+            len(section.find_elements(By.CSS_SELECTOR, "tbody tr")) == len(trackers), "a sequence's table lacks rows"
+        )
     for group in ("timeline", "switches"):
         for tracker in trackers[::-1]:
             Select(all_of(f"select[data-group={group}]")[0]).select_by_value(tracker)
-            visible = {each.get_attribute("data-name") for each in all_of(f"[data-choice={group}]") if each.is_displayed()}
+            visible = {
+                each.get_attribute("data-name") for each in all_of(f"[data-choice={group}]") if each.is_displayed()
+            }
             demand(visible == {tracker}, f"the choice of {tracker} shows {visible} of {group}")
     broken = browser.execute_script("""
         return [...document.images].filter(image => !image.complete || !image.naturalWidth || !image.alt).length""")

@@ -193,8 +193,10 @@ class Finder:
             paths = self.other_detections(folders)
         for sequence, path, folder in zip(found, paths, folders):
             if not path:
-                raise Unusable(f"{folder} has no detections: looked for {' and '.join(names)}; --det names another file "
-                               "of each sequence, or a folder of SEQUENCE.txt with your own detector's")
+                raise Unusable(
+                    f"{folder} has no detections: looked for {' and '.join(names)}; --det names another file "
+                    "of each sequence, or a folder of SEQUENCE.txt with your own detector's"
+                )
             sequence.det = path
         inside = sorted({os.path.relpath(path, folder) for path, folder in zip(paths, folders)})
         self.say(f"detections: {', '.join(inside)} of each sequence")
@@ -202,7 +204,9 @@ class Finder:
     def other_detections(self, folders):
         """Files of another name that each sequence has; those first whose scores are probabilities."""
         def inside(folder):
-            paths = (path for pattern in ("det/*.txt", "det*.txt") for path in glob.glob(f"{glob.escape(folder)}/{pattern}"))
+            paths = (
+                path for pattern in ("det/*.txt", "det*.txt") for path in glob.glob(f"{glob.escape(folder)}/{pattern}")
+            )
             return {os.path.relpath(path, folder) for path in paths}
 
         names = set.intersection(*(inside(folder) for folder in folders))
@@ -236,7 +240,9 @@ class Finder:
         if sequence.fps is None:
             self.say(f"{sequence.name}: nobody says the frame rate, so trackers think it 30 per second; --fps sets it")
         if sequence.images and not frames_module.enough(sequence):
-            self.say(f"{sequence.name}: {sequence.images} has fewer than {sequence.frames} images, so they are not used")
+            self.say(
+                f"{sequence.name}: {sequence.images} has fewer than {sequence.frames} images, so they are not used"
+            )
             sequence.images = None
         if sequence.size is None:
             sequence.size = frames_module.size_of(sequence.images) if sequence.images else None
@@ -288,7 +294,9 @@ class Finder:
             self.say("images: none; trackers see boxes only")
         else:
             without = [sequence.name for sequence in found if not sequence.images]
-            self.say("images: " + (f"of {some(with_images)}, not of {some(without)}" if without else "of each sequence"))
+            self.say(
+                "images: " + (f"of {some(with_images)}, not of {some(without)}" if without else "of each sequence")
+            )
 
 
 def is_sequence(folder):

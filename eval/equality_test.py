@@ -1,10 +1,11 @@
-"""The reports' numbers are those of the measurement data's own judging program, tools/eval_mot.py, to three decimals, for
-all trackers and sequences of mot17, mot15 and dancetrack.
+"""The reports' numbers are those of the measurement data's own judging program, tools/eval_mot.py, to three decimals,
+for all trackers and sequences of mot17, mot15 and dancetrack.
 
 usage: equality_test.py GT2-MOT
 
 Exit status 77 (skipped) where GENTRACK2_SHARED does not name the data, or the Python packages cannot be installed.
 """
+
 import concurrent.futures
 import json
 import os
@@ -37,9 +38,21 @@ def expected(setup, evaluation, entry):
             os.mkdir(f"{work}/{kind}")
         for sequence in setup.sequences:
             os.symlink(sequence.gt, f"{work}/gt/{sequence.name}.txt")
-            os.symlink(evaluation.tracks[setup.name, entry.name, None, sequence.name], f"{work}/res/{sequence.name}.txt")
-        command = [sys.executable, f"{SHARED}/tools/eval_mot.py", "--gt", f"{work}/gt", "--res", f"{work}/res", "--json",
-                   "--split", setup.rules.split, *(["--humans"] if setup.rules.classes else [])]
+            os.symlink(
+                evaluation.tracks[setup.name, entry.name, None, sequence.name], f"{work}/res/{sequence.name}.txt"
+            )
+        command = [
+            sys.executable,
+            f"{SHARED}/tools/eval_mot.py",
+            "--gt",
+            f"{work}/gt",
+            "--res",
+            f"{work}/res",
+            "--json",
+            "--split",
+            setup.rules.split,
+            *(["--humans"] if setup.rules.classes else []),
+        ]
         done = subprocess.run(command, capture_output=True, text=True)
         assert done.returncode == 0, done.stderr
         return json.loads(done.stdout.strip().splitlines()[-1])
@@ -60,7 +73,9 @@ class Equality(unittest.TestCase):
             for sequence, scores in table.items():
                 ours = evaluation.scores(setup, entry, None, sequence)
                 for score in COMPARED:
-                    self.assertAlmostEqual(ours[score], scores[score], delta=0.0005, msg=f"{entry.name} {sequence} {score}")
+                    self.assertAlmostEqual(
+                        ours[score], scores[score], delta=0.0005, msg=f"{entry.name} {sequence} {score}"
+                    )
                     count += 1
         print(f"{name}: {count} numbers compared", flush=True)
 

@@ -57,8 +57,12 @@ def verdict(found, final):
     mean = sum(gains) / len(gains)
     error = (sum((gain - mean) ** 2 for gain in gains) / (len(gains) - 1) / len(gains)) ** 0.5
     better = sum(gain > 0 for gain in gains)
-    shown = f"On sequences held out: {mean:+.2f} in the mean, standard error {error:.2f}, better in {better} of {len(gains)}."
+    shown = (f"On sequences held out: {mean:+.2f} in the mean, standard error {error:.2f}, "
+             f"better in {better} of {len(gains)}.")
     if mean > error and 2 * better > len(gains):
         return Verdict(True, f"{shown}\nThe gain holds where the search did not look.")
-    return Verdict(False, f"{shown}\nThe gain where it was searched, {final.train - final.train_default:+.2f}, does not hold "
-                          "elsewhere: no gain is claimed.")
+    return Verdict(
+        False,
+        f"{shown}\nThe gain where it was searched, {final.train - final.train_default:+.2f}, does not hold "
+        "elsewhere: no gain is claimed.",
+    )

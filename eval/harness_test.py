@@ -223,11 +223,14 @@ class Identities(unittest.TestCase):
         matches = [{1: 10, 2: 20, 3: 30}, {2: 20, 3: 30}, {1: 12, 2: 30, 3: 20}]
         present, boxes = [[1, 2, 3]] * 3, [[[0, 0, 1, 1]] * 3] * 3
         found = list(identities.events_of(matches, present, boxes, [[10, 20, 30], [20, 30], [12, 20, 30]], 1))
-        self.assertEqual([(each.person, each.frame, each.gap, each.cause, each.came_from, each.went_to) for each in found], [
-            (1, 3, 2, "new id", None, "ended"),
-            (2, 3, 1, "swap", 3, 3),
-            (3, 3, 1, "swap", 2, 2),
-        ])
+        self.assertEqual(
+            [(each.person, each.frame, each.gap, each.cause, each.came_from, each.went_to) for each in found],
+            [
+                (1, 3, 2, "new id", None, "ended"),
+                (2, 3, 1, "swap", 3, 3),
+                (3, 3, 1, "swap", 2, 2),
+            ],
+        )
 
 
 class Folds(unittest.TestCase):

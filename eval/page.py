@@ -96,7 +96,9 @@ def numbers_of(report):
 
 def charts(report):
     return {
-        "bars": plots.bars(report.names, {score: report.scores(score) for score in ("ATA", "IDF1", "HOTA")}, report.marks),
+        "bars": plots.bars(
+            report.names, {score: report.scores(score) for score in ("ATA", "IDF1", "HOTA")}, report.marks
+        ),
         "alpha": plots.hota_over_alpha(report.names, judge.thresholds(), report.scores("HOTA_alpha"), report.marks),
         "time": plots.accuracy_over_time(report.names, report.times(), report.scores("HOTA"), report.marks),
     }
@@ -121,24 +123,39 @@ def about(switch):
     where = event.went_to if isinstance(event.went_to, str) else f"follows person {event.went_to} now"
     where = {"alone": "follows nobody now", "ended": "has ended"}.get(where, where)
     seconds = f" ({event.frame / switch.sequence.fps:.1f} s)" if switch.sequence.fps else ""
-    gap = "from one frame to the next" if event.gap == 1 else f"after {event.gap - 1} frame{'s' * (event.gap > 2)} without"
+    gap = (
+        "from one frame to the next"
+        if event.gap == 1
+        else f"after {event.gap - 1} frame{'s' * (event.gap > 2)} without"
+    )
     other = f" It followed person {event.came_from} before." if event.came_from is not None else ""
     return {
         "title": f"{switch.sequence.name}, person {event.person}, frame {event.frame}{seconds}",
-        "text": f"Track {event.before}, which had this person for {switch.held} frames, {where}. Track {event.now} took over "
-                f"{gap}, for {switch.kept} frames.{other}",
-        "cause": event.cause, "before": event.before, "now": event.now, "frame": event.frame,
-        "pictures": [{"frame": number, "data": data, "is_switch": number == event.frame,
-                      "alt": f"frame {number}: person {event.person}" +
-                             (f" is now track {event.now}" if number >= event.frame else f" is or was track {event.before}")}
-                     for number, data in switch.pictures],
+        "text": f"Track {event.before}, which had this person for {switch.held} frames, {where}. "
+        f"Track {event.now} took over {gap}, for {switch.kept} frames.{other}",
+        "cause": event.cause,
+        "before": event.before,
+        "now": event.now,
+        "frame": event.frame,
+        "pictures": [
+            {
+                "frame": number,
+                "data": data,
+                "is_switch": number == event.frame,
+                "alt": f"frame {number}: person {event.person}"
+                + (f" is now track {event.now}" if number >= event.frame else f" is or was track {event.before}"),
+            }
+            for number, data in switch.pictures
+        ],
     }
 
 
 def switches(report):
     """The worst switches per tracker, with pictures."""
-    chosen = [(entry, strips.worst([(sequence, report.result(entry, sequence.name)) for sequence in report.setup.sequences],
-                                   report.strips)) for entry in report.entries]
+    chosen = []
+    for entry in report.entries:
+        results = [(sequence, report.result(entry, sequence.name)) for sequence in report.setup.sequences]
+        chosen.append((entry, strips.worst(results, report.strips)))
 
     def place(entry_name, sequence):
         entry = next(entry for entry in report.entries if entry.name == entry_name)
@@ -169,8 +186,8 @@ def circumstances(report):
     return [
         f"judge: {versions}",
         "parameters: defaults" + (f", but for {settings}" if settings else ""),
-        f"times: measured on this machine ({processor()}), with up to {together} trackers running at a time; they depend on "
-        "what else it did and are no more than a comparison",
+        f"times: measured on this machine ({processor()}), with up to {together} trackers running at a time; they "
+        "depend on what else it did and are no more than a comparison",
         f"library and program: {evaluation_module.program_identity(report.evaluation.program)[:12]}",
     ]
 
@@ -179,8 +196,13 @@ def render(report):
     """The page as text."""
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    with tqdm.tqdm(desc="page", total=len(report.entries) * len(report.setup.sequences) + 1, file=sys.stderr, disable=None,
-                   leave=False) as bar:
+    with tqdm.tqdm(
+        desc="page",
+        total=len(report.entries) * len(report.setup.sequences) + 1,
+        file=sys.stderr,
+        disable=None,
+        leave=False,
+    ) as bar:
         sequences = [{"name": sequence.name, "grid": grid(report, sequence.name),
                       "timelines": timelines(report, sequence, number, bar)}
                      for number, sequence in enumerate(report.setup.sequences)]

@@ -2,7 +2,8 @@
 import ctypes as c
 import dataclasses
 
-NUMBER, INTEGER, BOOLEAN, CHOICE = 1, 2, 3, 4
+# GT2_PARAMETER_... of gentrack2.h: the kinds that are a single value.
+NUMBER, INTEGER, BOOLEAN, CHOICE = SINGLE = (1, 2, 3, 4)
 
 
 class Info(c.Structure):

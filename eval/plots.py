@@ -62,7 +62,8 @@ def svg_of(figure, name, alt, width_class):
     text = re.sub(r"(\d\.\d\d)\d+", r"\1", text)
     box = re.search(r'viewBox="[^"]*"', text)[0]
     label = alt.replace("&", "&amp;").replace("<", "&lt;").replace('"', "&quot;")
-    head = f'<svg xmlns:xlink="http://www.w3.org/1999/xlink" {box} class="plot {width_class}" role="img" aria-label="{label}">'
+    head = (f'<svg xmlns:xlink="http://www.w3.org/1999/xlink" {box} class="plot {width_class}" role="img" '
+            f'aria-label="{label}">')
     return head + text[text.index(">") + 1:]
 
 
@@ -183,8 +184,13 @@ def accuracy_over_time(names, microseconds, values, marks_of):
                       fontweight="bold" if mark.width > 2 else "normal")
         return figure
 
-    alt = "HOTA against time per frame: " + ", ".join(
-        f"{name} {value:.1f} at {time:.0f} microseconds" for name, time, value in zip(names, microseconds, values)) + "."
+    alt = (
+        "HOTA against time per frame: "
+        + ", ".join(
+            f"{name} {value:.1f} at {time:.0f} microseconds" for name, time, value in zip(names, microseconds, values)
+        )
+        + "."
+    )
     return both_widths("time", alt, draw)
 
 
@@ -214,8 +220,12 @@ def switches_of(person):
     return sum(one != other for one, other in zip(ids, ids[1:]))
 
 
-ROW = 9
 MOST_ROWS = 60
+
+
+def row_height(rows):
+    """Few people get more room."""
+    return 20 if rows <= 10 else 14 if rows <= 25 else 9
 
 
 def timeline_rows(people):
@@ -226,15 +236,15 @@ def timeline_rows(people):
 
 
 def timeline_image(people, chosen, colours, first, last, columns):
-    """One row of ROW pixels per person."""
-    length = last - first + 1
-    image = numpy.zeros((ROW * len(chosen), columns, 4), dtype=numpy.uint8)
+    """A row per person; where nobody is, it is transparent."""
+    length, height = last - first + 1, row_height(len(chosen))
+    image = numpy.zeros((height * len(chosen), columns, 4), dtype=numpy.uint8)
 
     def column(frame):
         return (frame - first) * columns // length
 
     for row, name in enumerate(chosen):
-        top, bottom = ROW * row + 1, ROW * row + ROW - 1
+        top, bottom = height * row + 1, height * row + height - 1
         for begin, end in people[name]["present"]:
             image[top:bottom, column(begin):max(column(end + 1), column(begin) + 1)] = UNTRACKED
         before = None
@@ -253,16 +263,17 @@ def timeline(name, title, people, first, last):
     chosen, colours = timeline_rows(people), identity_colours(people)
 
     def draw(width):
-        height = ROW * len(chosen) + 44
+        rows = row_height(len(chosen)) * len(chosen)
+        height = rows + 44
         figure = plt.figure(figsize=(width / 72, height / 72))
-        left, right, top = 34, 8, 4
-        axis = figure.add_axes((left / width, 40 / height, 1 - (left + right) / width, ROW * len(chosen) / height))
+        left, right = 34, 20
+        axis = figure.add_axes((left / width, 40 / height, 1 - (left + right) / width, rows / height))
         columns = min(last - first + 1, 2 * (width - left - right))
         axis.imshow(timeline_image(people, chosen, colours, first, last, columns), aspect="auto", interpolation="none",
                     extent=(first - 0.5, last + 0.5, len(chosen), 0))
         for row, person in enumerate(chosen):
             axis.text(-4 / (width - left - right), 1 - (row + 0.5) / len(chosen), person, transform=axis.transAxes,
-                      ha="right", va="center", fontsize=7.5, color=MUTED)
+                      ha="right", va="center", fontsize=min(11, row_height(len(chosen)) - 1.5), color=MUTED)
         axis.set_yticks([])
         axis.spines["left"].set_visible(False)
         axis.tick_params(axis="x", length=3, labelsize=11)

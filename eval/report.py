@@ -25,7 +25,9 @@ def arguments():
     parser.add_argument("--title", help="of the page; default: the folder's name")
     parser.add_argument("--entries", action="append", default=[], help="rows, as evaluate.py's; default: all trackers")
     parser.add_argument("--seed", type=int, help="seed of gentrack2; default: its own default")
-    parser.add_argument("--strips", type=int, default=3, metavar="N", help="worst switches shown per tracker; default: 3")
+    parser.add_argument(
+        "--strips", type=int, default=3, metavar="N", help="worst switches shown per tracker; default: 3"
+    )
     parser.add_argument("--json", metavar="FILE", help="also write all scores as JSON")
     program.common_options(parser)
     options = parser.parse_args()
@@ -40,15 +42,20 @@ def arguments():
 def data_options(parser):
     parser.add_argument("data", help="folder of the sequences")
     parser.add_argument("--sequences", metavar="PATTERN,...", help="only those of such names, such as MOT17-0*")
-    parser.add_argument("--det", metavar="FILE", help="file of detections in each sequence's folder (or in its det/), or "
-                        "a folder with SEQUENCE.txt")
+    parser.add_argument(
+        "--det",
+        metavar="FILE",
+        help="file of detections in each sequence's folder (or in its det/), or a folder with SEQUENCE.txt",
+    )
     parser.add_argument("--split", choices=("full", "half"), default="full", help="half: only the second halves count, "
                         "for a detector that was trained on the first")
     parser.add_argument("--classes", metavar="N,...", help="classes of the ground truth that count, as one, whatever "
                         "their flag; default: MOTChallenge's rules")
     parser.add_argument("--gmc", choices=("auto", "none", "estimate"), default="auto",
                         help="camera motion: gmc.txt if there, none, or estimated from the images")
-    parser.add_argument("--embeddings", metavar="FILE", help="file of embeddings in each sequence's folder; default: none")
+    parser.add_argument(
+        "--embeddings", metavar="FILE", help="file of embeddings in each sequence's folder; default: none"
+    )
     parser.add_argument("--images", choices=("auto", "none"), default="auto", help="images, if there, or none")
     parser.add_argument("--fps", type=float, help="frames per second; default: seqinfo.ini's")
     parser.add_argument("--size", metavar="WxH", help="size of the images; default: seqinfo.ini's")
@@ -62,8 +69,9 @@ def find(options):
         facts.append(sentence)
         print(f"  {sentence}", file=sys.stderr)
 
-    wishes = dataset.Wishes(options.sequences, options.det, options.gmc, options.embeddings, options.images, options.fps,
-                            options.size)
+    wishes = dataset.Wishes(
+        options.sequences, options.det, options.gmc, options.embeddings, options.images, options.fps, options.size
+    )
     try:
         classes = tuple(int(each) for each in options.classes.split(",")) if options.classes else None
     except ValueError:
@@ -83,7 +91,9 @@ def find(options):
 def evaluation_of(options, setup, entries):
     """The evaluation of the set-up; ends the program if there is nothing to judge."""
     try:
-        return evaluation_module.Evaluation(options.program, options.cache, options.jobs, [setup], entries, [options.seed])
+        return evaluation_module.Evaluation(
+            options.program, options.cache, options.jobs, [setup], entries, [options.seed]
+        )
     except evaluation_module.NothingCounts as error:
         sys.exit(str(error))
 

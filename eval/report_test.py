@@ -60,8 +60,18 @@ class Report(unittest.TestCase):
 
     @classmethod
     def report(cls, data, *more, code=0):
-        command = [sys.executable, f"{HERE}/report.py", data, "--program", PROGRAM, "--cache", f"{cls.root}/cache", "--out",
-                   f"{cls.root}/out", *more]
+        command = [
+            sys.executable,
+            f"{HERE}/report.py",
+            data,
+            "--program",
+            PROGRAM,
+            "--cache",
+            f"{cls.root}/cache",
+            "--out",
+            f"{cls.root}/out",
+            *more,
+        ]
         done = subprocess.run(command, capture_output=True, text=True)
         assert done.returncode == code, f"{done.returncode}: {done.stdout}{done.stderr}"
         return done.stdout + done.stderr
@@ -117,7 +127,12 @@ class Report(unittest.TestCase):
             os.rmdir(f"{sequence}/{part}")
         os.remove(f"{sequence}/seqinfo.ini")
         said = self.only_sort(folder)
-        for fact in ("no seqinfo.ini; 20 frames", "--fps sets it", "holds all boxes, --size", "det.txt of each sequence"):
+        for fact in (
+            "no seqinfo.ini; 20 frames",
+            "--fps sets it",
+            "holds all boxes, --size",
+            "det.txt of each sequence",
+        ):
             self.assertIn(fact, said)
         self.assertIn("one sequence by itself", self.only_sort(sequence))
 
@@ -152,19 +167,27 @@ class Report(unittest.TestCase):
         self.assertIn("of 2 numbers", self.only_sort(folder, "--embeddings", "embeddings.f32"))
         with open(f"{sequence}/embeddings.f32", "ab") as file:
             file.write(b"x")
-        self.assertIn("no whole number of 32-bit floats", self.only_sort(folder, "--embeddings", "embeddings.f32", code=1))
+        self.assertIn(
+            "no whole number of 32-bit floats", self.only_sort(folder, "--embeddings", "embeddings.f32", code=1)
+        )
 
     def test_what_is_wrong_is_named(self):
         folder, sequence = self.one()
         for path, line, text, said in (
-                ("gt/gt.txt", 3, "1,2,x,4,5,6,1,1,1", 'gt/gt.txt:3: left "x" is not a finite number'),
-                ("gt/gt.txt", 2, "1,2,3", "gt/gt.txt:2: expected frame,id,left,top,width,height,..., found 3 fields: 1,2,3"),
-                ("gt/gt.txt", 2, None, "is in frame 1 already, by line 1"),
-                ("det/det.txt", 5, "0,-1,1,2,3,4,0.5", 'det/det.txt:5: frame "0" is not a whole number from 1 on'),
-                ("det/det.txt", 5, "1,-1,1,2,-3,4,0.5", 'det/det.txt:5: width "-3" is negative'),
-                ("det/det.txt", 5, "1,-1,1,2,3,4", "det/det.txt:5: expected frame,id,left,top,width,height,score,..."),
-                ("seqinfo.ini", 6, "", "seqinfo.ini: 'imwidth' is missing".replace("'", "")),
-                ("seqinfo.ini", 5, "seqLength=many", "seqinfo.ini: invalid literal")):
+            ("gt/gt.txt", 3, "1,2,x,4,5,6,1,1,1", 'gt/gt.txt:3: left "x" is not a finite number'),
+            (
+                "gt/gt.txt",
+                2,
+                "1,2,3",
+                "gt/gt.txt:2: expected frame,id,left,top,width,height,..., found 3 fields: 1,2,3",
+            ),
+            ("gt/gt.txt", 2, None, "is in frame 1 already, by line 1"),
+            ("det/det.txt", 5, "0,-1,1,2,3,4,0.5", 'det/det.txt:5: frame "0" is not a whole number from 1 on'),
+            ("det/det.txt", 5, "1,-1,1,2,-3,4,0.5", 'det/det.txt:5: width "-3" is negative'),
+            ("det/det.txt", 5, "1,-1,1,2,3,4", "det/det.txt:5: expected frame,id,left,top,width,height,score,..."),
+            ("seqinfo.ini", 6, "", "seqinfo.ini: 'imwidth' is missing".replace("'", "")),
+            ("seqinfo.ini", 5, "seqLength=many", "seqinfo.ini: invalid literal"),
+        ):
             with open(f"{sequence}/{path}") as file:
                 lines = file.read().splitlines()
             good = list(lines)

@@ -48,8 +48,10 @@ class Scheduler:
         # Its thread would be copied into the processes.
         tqdm.tqdm.monitor_interval = 0
         context = multiprocessing.get_context("fork")
-        with (concurrent.futures.ProcessPoolExecutor(self.jobs, mp_context=context) as pool,
-              tqdm.tqdm(desc=what, total=self.added, file=sys.stderr, disable=None if what else True, leave=False) as bar):
+        with (
+            concurrent.futures.ProcessPoolExecutor(self.jobs, mp_context=context) as pool,
+            tqdm.tqdm(desc=what, total=self.added, file=sys.stderr, disable=None if what else True, leave=False) as bar,
+        ):
             running = {}
             while self.ready or running:
                 while self.ready and len(running) < self.jobs:

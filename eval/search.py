@@ -101,8 +101,11 @@ class Searcher:
 
     def study(self, sequences):
         """The study of these sequences, as far as it has come."""
-        contents = [store.content(path) for sequence in sequences
-                    for path in (sequence.det, self.trials.evaluation.truths[self.trials.setup.name, sequence.name].path)]
+        contents = [
+            store.content(path)
+            for sequence in sequences
+            for path in (sequence.det, self.trials.evaluation.truths[self.trials.setup.name, sequence.name].path)
+        ]
         name = store.key("study", self.trials.identity(), self.dimensions, self.seed, *contents)
         study = optuna.create_study(study_name=name, storage=self.storage, direction="maximize", load_if_exists=True)
         known = study.get_trials(deepcopy=False)

@@ -71,7 +71,9 @@ class Builder:
     def derived(self, sources, recipe, make):
         """A directory of files made once from the sources by make(directory); any change of sources, recipe or
         derive.py makes a new one."""
-        key = store.key("derived", recipe, *[store.content(path) for path in [derive.__file__, rows.__file__, *sources]])
+        key = store.key(
+            "derived", recipe, *[store.content(path) for path in [derive.__file__, rows.__file__, *sources]]
+        )
         directory = os.path.join(self.cache, "derived", key)
         if not os.path.isdir(directory):
             part = f"{directory}.{os.getpid()}"

@@ -56,7 +56,7 @@ def dimension(parameter, reach):
     what is no single value."""
     if parameter.kind in (parameters.BOOLEAN, parameters.CHOICE):
         return Dimension(parameter)
-    if parameter.kind not in (parameters.NUMBER, parameters.INTEGER):
+    if parameter.kind not in parameters.SINGLE:
         return None
     default, whole = float(parameter.default), parameter.kind == parameters.INTEGER
     # Around 0, and beyond what is whole, a step of one or a part of it.

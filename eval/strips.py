@@ -31,7 +31,9 @@ class Switch:
 
 
 def frames_with(person, track, begin, end):
-    return sum(max(0, min(last, end) - max(first, begin) + 1) for first, last, each in person["tracks"] if each == track)
+    return sum(
+        max(0, min(last, end) - max(first, begin) + 1) for first, last, each in person["tracks"] if each == track
+    )
 
 
 def worst(results, count):

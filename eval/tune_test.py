@@ -78,8 +78,18 @@ class Tune(unittest.TestCase):
                          self.tracks(*(word for key, value in values.items() for word in ("--set", f"{key}={value}"))))
 
     def tracks(self, *more):
-        command = [PROGRAM, "--tracker", "gentrack2", "--det", f"{self.root}/data/syn_b1/det/det.txt", "--size", "1920x1080",
-                   "--out", "-", *more]
+        command = [
+            PROGRAM,
+            "--tracker",
+            "gentrack2",
+            "--det",
+            f"{self.root}/data/syn_b1/det/det.txt",
+            "--size",
+            "1920x1080",
+            "--out",
+            "-",
+            *more,
+        ]
         done = subprocess.run(command, capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue(done.stdout)

@@ -54,7 +54,8 @@ def enter(directory, *requirements):
         make(directory, requirements)
     except (OSError, subprocess.CalledProcessError) as error:
         reason = (getattr(error, "stderr", "") or str(error)).strip().splitlines()[-1:]
-        skip(f"Python's {' '.join(map(os.path.basename, requirements))} cannot be installed:", *reason)
+        what = " ".join(os.path.basename(each) for each in requirements if not each.startswith("-"))
+        skip(f"Python's packages, {what}, cannot be installed:", *reason)
     python = os.path.join(directory, "bin", "python")
     sys.stdout.flush()
     os.execv(python, [python] + sys.argv)
