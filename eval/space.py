@@ -7,8 +7,9 @@ import re
 import environment
 import parameters
 
-# The table of README.md that names the parameters to try first begins with this line.
-TRY_FIRST = "| symptom | parameter | default | what to do |"
+# The page whose table names the parameters to try first, and how that begins.
+PAGE = os.path.join(environment.ROOT, "docs", "tuning.md")
+TRY_FIRST = "| symptom | parameter"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -70,18 +71,18 @@ def dimension(parameter, reach):
 
 
 def try_first():
-    """The keys that README.md names as those to try first."""
-    with open(os.path.join(environment.ROOT, "README.md"), encoding="utf-8") as file:
+    """The keys that docs/tuning.md names in its table of symptoms."""
+    with open(PAGE, encoding="utf-8") as file:
         text = file.read()
     if TRY_FIRST not in text:
-        raise ValueError("README.md has no table of the parameters to try first")
+        raise ValueError(f"{PAGE} has no table of symptoms and parameters")
     table = text[text.index(TRY_FIRST):].split("\n\n", 1)[0]
     columns = [row.split("|")[2:5] for row in table.splitlines()[2:]]
     return set(re.findall(r"`(\w+)`", " ".join(cell for row in columns for cell in row)))
 
 
 def dimensions(library, algorithm, wanted, reach):
-    """`wanted`: keys with commas, "all", or None for those that README.md names."""
+    """`wanted`: keys with commas, "all", or None for those to try first."""
     own = library.own_parameters(algorithm)
     keys = {each.key for each in own}
     if wanted and wanted != "all":

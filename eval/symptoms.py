@@ -14,22 +14,17 @@ import math
 import os
 import re
 import shlex
-import subprocess
 import sys
-import tempfile
 import time
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-ROOT = os.path.dirname(HERE)
-sys.path[:0] = [HERE, os.path.join(ROOT, "examples_cpp", "tests")]
-import own_venv  # noqa: E402
-import setups as setups_module  # noqa: E402
-import store  # noqa: E402
-import work  # noqa: E402
+import environment
+import judge
+import setups as setups_module
+import store
+import work
+from environment import ROOT
 
 PAGE = f"{ROOT}/docs/tuning.md"
-# How set-ups are judged; see eval/README.md.
-JUDGED = {"H": ["--split", "half"], "L4": ["--split", "half"], "P": ["--humans"], "R": ["--humans"], "Wf": ["--humans"]}
 
 # What the judge tells, with digits and heading; and what is counted here.
 COLUMNS = {"HOTA": (1, "HOTA"), "DetA": (1, "DetA"), "AssA": (1, "AssA"), "IDF1": (1, "IDF1"), "MOTA": (1, "MOTA"),
@@ -117,7 +112,6 @@ class Bench:
     def __init__(self, options):
         self.options = options
         self.builder = setups_module.Builder(os.path.abspath(options.data), os.path.abspath(options.cache), 1)
-        self.judge = f"{options.data}/tools/eval_mot.py"
         self.built = {}
 
     def sequence(self, row):
@@ -129,15 +123,15 @@ class Bench:
 
     def command(self, row):
         command = [self.options.program, "--tracker", "gentrack2"]
-        for option, value in self.sequence(row).arguments():
-            command += [option, value]
+        for option, value, _ in self.sequence(row).arguments(looks=True):
+            command += [option, value] if value else [option]
         return command + [word for setting in row.settings for word in ("--set", setting)]
 
     def measure(self, row):
         """The judge's scores of a row, and what is counted here."""
         command, sequence = self.command(row), self.sequence(row)
         library = os.path.realpath(f"{os.path.dirname(self.options.program)}/../lib/libgentrack2.so")
-        files = [self.options.program, library, self.judge, sequence.gt]
+        files = [self.options.program, library, sequence.gt, judge.identity()]
         parts = [store.content(word) if os.path.isfile(word) else word for word in [*command, *files]]
         place = f"{self.options.cache}/symptoms/{store.key(row.setup, *parts)}"
         if not os.path.exists(f"{place}.json"):
@@ -147,16 +141,9 @@ class Bench:
             return json.load(file)
 
     def judged(self, row, sequence, tracks):
-        with tempfile.TemporaryDirectory() as directory:
-            for kind, path in (("gt", sequence.gt), ("res", tracks)):
-                os.mkdir(f"{directory}/{kind}")
-                os.symlink(os.path.abspath(path), f"{directory}/{kind}/{row.sequence}.txt")
-            command = [sys.executable, self.judge, "--gt", f"{directory}/gt", "--res", f"{directory}/res", "--json",
-                       *JUDGED.get(row.setup, []), "--seq", row.sequence]
-            done = subprocess.run(command, capture_output=True, text=True)
-        if done.returncode:
-            raise work.Failed(f"{shlex.join(command)}\n{done.stderr.strip()}")
-        scores = json.loads(done.stdout.strip().splitlines()[-1])[row.sequence]
+        rules = self.built[row.setup].rules
+        truth = judge.prepare(sequence.gt, rules, f"{self.options.cache}/truth")
+        scores = judge.scores(judge.judge(truth, tracks, rules))
         with open(tracks) as file:
             scores["tracks"] = len({line.split(",")[1] for line in file})
         return scores | {"tremble": tremble(tracks)}
@@ -193,7 +180,7 @@ def arguments():
     parser.add_argument("--commands", action="store_true", help="print the commands instead of running them")
     parser.add_argument("--program", default=f"{ROOT}/build/examples_cpp/gt2_mot", help="the built gt2_mot")
     parser.add_argument("--data", default=os.environ.get("GENTRACK2_SHARED"),
-                        help="directory of the data and the judge; default: what GENTRACK2_SHARED names")
+                        help="directory of the data; default: what GENTRACK2_SHARED names")
     parser.add_argument("--cache", default=f"{ROOT}/out/eval-cache", help="where results are kept")
     parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)), help="default: all cores")
     options = parser.parse_args()
@@ -206,9 +193,9 @@ def arguments():
 def main():
     start = time.monotonic()
     options = arguments()
-    if not options.data or not os.path.isfile(f"{options.data}/tools/eval_mot.py"):
-        own_venv.skip("neither GENTRACK2_SHARED nor --data names the measurement data")
-    own_venv.enter(os.environ.get("GENTRACK2_TRACKEVAL_VENV") or f"{ROOT}/build/trackeval-venv", "trackeval")
+    if not options.data:
+        environment.skip("neither GENTRACK2_SHARED nor --data names the measurement data")
+    environment.enter()
     names = options.cases or list(CASES)
     bench = Bench(options)
     rows_of_all = [(name, row) for name in names for row in CASES[name]]

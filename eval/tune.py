@@ -38,7 +38,7 @@ def arguments():
     parser.add_argument(
         "--parameters",
         metavar="KEY,...",
-        help="what is searched, or all; default: those that README.md names to try first",
+        help="what is searched, or all; default: those of the table of docs/tuning.md",
     )
     parser.add_argument("--reach", type=float, default=2.0, metavar="F", help="numbers are searched from the default "
                         "divided by this to the default times this; default: 2")
