@@ -10,7 +10,7 @@ use super::full_association::Extra;
 const LEFT_OUT: f64 = 1e3;
 
 /// Most pairs looked at besides those that overlap. No scene has that many, but hostile input has, and all its pairs
-/// do not fit into memory.
+/// neither fit into memory nor can be looked at in time.
 pub const MOST_EXTRA: usize = 1 << 22;
 
 /// Tracks that a detection is offered besides those it overlaps, before all are; in tests so few that they run out.
@@ -39,6 +39,8 @@ pub struct OpenPairs {
     choices: Vec<Choices>,
     /// Tracks by ascending number, and what is added for the pair.
     list: Vec<(u32, f64)>,
+    /// Pairs looked at so far.
+    looked: usize,
     best: Vec<(f64, u32)>,
     edges: Vec<Edge>,
     solver: Assignment,
@@ -64,6 +66,7 @@ impl OpenPairs {
     {
         let left_out = self.list_open(pairs, tracks, &extra.is_plain, partners);
         self.list.clear();
+        self.looked = 0;
         self.choices.clear();
         for (row, partner) in partners.iter().enumerate() {
             self.choices.push(Choices { start: 0, end: 0, rest: (extra.bound)(row as u32) });
@@ -125,7 +128,8 @@ impl OpenPairs {
         A: Fn(u32, u32) -> bool,
     {
         let start = self.list.len();
-        if start + self.open.len() > MOST_EXTRA {
+        self.looked += self.open.len();
+        if self.looked > MOST_EXTRA {
             return false;
         }
         let seen = self.choices[row];
