@@ -119,8 +119,11 @@ impl Config {
         unsafe {
             assert_eq!(gt2_config_new(name.as_ptr(), &mut config), GT2_OK);
             assert_eq!(gt2_config_set(config, c"class_policy".as_ptr(), policy.as_ptr()), GT2_OK);
-            let camera = gt2_config_set(config, c"use_camera_motion".as_ptr(), c"true".as_ptr());
-            assert!([GT2_OK, GT2_ERR_UNKNOWN_PARAMETER].contains(&camera));
+            // Who goes is given up within the scene.
+            for (key, value) in [(c"use_camera_motion", c"true"), (c"max_age", c"3"), (c"track_buffer", c"3")] {
+                let status = gt2_config_set(config, key.as_ptr(), value.as_ptr());
+                assert!([GT2_OK, GT2_ERR_UNKNOWN_PARAMETER].contains(&status), "{}", message());
+            }
         }
         Self(config)
     }
