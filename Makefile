@@ -35,7 +35,7 @@ help:
 	@echo "                MOT17 is among it if GENTRACK2_SHARED names the data"
 	@echo "make bench-instructions"
 	@echo "                instructions per step against benches/instructions/baseline.txt; UPDATE=1 writes that file"
-	@echo "make fuzz       the fuzzers of fuzz/, SECONDS=600 each"
+	@echo "make fuzz       the fuzzers of fuzz/, SECONDS=600 each; TARGETS='toml mot_reader' are some of them"
 	@echo "make sanitize   the C and C++ tests under valgrind and GCC's sanitizers; CHECKERS='memcheck helgrind' are some of"
 	@echo "                memcheck, helgrind, address, thread"
 	@echo "make deny       licences and sources of all dependencies; ADVISORIES=1 for known vulnerabilities, from GitHub"
@@ -123,10 +123,8 @@ bench-instructions:
 SECONDS ?= 600
 
 fuzz:
-	cd fuzz && for target in c_abi toml snapshot; do \
-	    mkdir -p corpus/$$target && \
-	    cargo +nightly fuzz run $$target corpus/$$target seeds/$$target -- -max_total_time=$(SECONDS) || exit 1; \
-	done
+	@tools/install-needs.sh fuzz
+	@tools/fuzz.sh $(SECONDS) $(TARGETS)
 
 CHECKERS ?= memcheck helgrind address thread
 

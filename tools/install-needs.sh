@@ -2,7 +2,7 @@
 # Installs the Debian packages that a task needs and this machine lacks; does nothing where all is there.
 #
 #   usage: tools/install-needs.sh
-#       build|test|demo|package|docs|eval|eval-check|arm|bench|bench-instructions|sanitize|deny
+#       build|test|demo|package|docs|eval|eval-check|arm|bench|bench-instructions|sanitize|deny|fuzz
 set -eu
 
 say() { printf '%s\n' "$*" >&2; }
@@ -93,6 +93,11 @@ if [ "$task" = deny ]; then
     python3 -c 'import ensurepip' 2>/dev/null || need python3-venv
 fi
 
+if [ "$task" = fuzz ]; then
+    # clang can be there without its fuzzer and sanitizers.
+    has clang++ && [ -e "$(clang++ --print-file-name=libclang_rt.fuzzer-"$(uname -m)".a)" ] || need clang libclang-rt-dev
+fi
+
 if [ "$task" = arm ]; then
     has aarch64-linux-gnu-gcc || need gcc-aarch64-linux-gnu libc6-dev-arm64-cross
     has aarch64-linux-gnu-g++ || need g++-aarch64-linux-gnu
@@ -107,6 +112,15 @@ if [ "$task" = arm ]; then
         has arm-linux-gnueabihf-gcc || need gcc-arm-linux-gnueabihf libc6-dev-armhf-cross
         has arm-linux-gnueabihf-g++ || need g++-arm-linux-gnueabihf
     fi
+fi
+
+# Rust's fuzzer is no Debian package.
+if [ "$task" = fuzz ]; then
+    if ! cargo +nightly --version >/dev/null 2>&1; then
+        say "installing: a nightly Rust, which cargo-fuzz needs"
+        rustup toolchain install nightly --profile minimal
+    fi
+    cargo fuzz --version >/dev/null 2>&1 || cargo install --quiet --locked cargo-fuzz
 fi
 
 [ -n "$missing" ] || exit 0

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "mot_rows.hpp"
+
 namespace examples {
 
 struct TrueBox {
@@ -26,5 +28,8 @@ using GroundTruth = std::map<long, std::vector<TrueBox>>;
 /// other than 1, the pedestrians. Rows of ten fields, as in MOT15, have no class but the place in the world. Throws
 /// `UserError` with the line number and the reason for a bad row.
 GroundTruth read_ground_truth(const std::string &path);
+
+/// The same of a file that is in memory already.
+GroundTruth parse_ground_truth(const NamedText &file);
 
 }  // namespace examples

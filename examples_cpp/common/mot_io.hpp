@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "mot_rows.hpp"
+
 namespace examples {
 
 /// A detection: box in pixels, score in [0, 1].
@@ -60,9 +62,17 @@ struct DetectionOptions {
 /// skipped. Throws `UserError` with the line number and the reason for a bad row.
 DetectionFile read_detections(const std::string &path, const DetectionOptions &options);
 
+/// The same of files that are in memory already; `embeddings` counts only if the options name a file of them.
+DetectionFile parse_detections(const NamedText &detections, const NamedText &embeddings,
+                               const DetectionOptions &options);
+
 /// Reads camera motion: line k holds a frame number and the six numbers of frame k, separated by blanks, tabs or
-/// commas. The order of the lines counts, not the number: files count from 0 or from 1.
+/// commas. The order of the lines counts, not the number: files count from 0 or from 1. Throws `UserError` with the
+/// line number for a bad line, and for a motion that no tracker takes.
 std::vector<Affine> read_camera_motion(const std::string &path);
+
+/// The same of a file that is in memory already.
+std::vector<Affine> parse_camera_motion(const NamedText &file);
 
 /// One row of a result.
 struct TrackRow {

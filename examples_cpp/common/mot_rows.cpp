@@ -11,8 +11,8 @@ namespace {
 /// The library's limit, asked for here to be able to name the line.
 constexpr double max_coordinate = 1e12;
 
-MotRow parse(const std::string &path, long line, std::string_view text, const std::vector<const char *> &names) {
-    MotRow row{0, 0, 0, 0, 0, 0, split_commas(text), path, line};
+MotRow parse(const std::string &file, long line, std::string_view text, const std::vector<const char *> &names) {
+    MotRow row{0, 0, 0, 0, 0, 0, split_commas(text), file, line};
     if (row.fields.size() < names.size()) {
         std::string expected;
         for (const char *name : names) expected += (expected.empty() ? "" : ",") + std::string(name);
@@ -46,7 +46,7 @@ double MotRow::number(std::size_t index, const char *name) const {
     return *value;
 }
 
-void MotRow::refuse(const std::string &reason) const { refuse_line(path, line, reason); }
+void MotRow::refuse(const std::string &reason) const { refuse_line(file, line, reason); }
 
 void for_each_line(std::string_view text, const std::function<void(long, std::string_view)> &visit) {
     for (long number = 1; !text.empty(); ++number) {
@@ -57,16 +57,13 @@ void for_each_line(std::string_view text, const std::function<void(long, std::st
     }
 }
 
-void refuse_line(const std::string &path, long line, const std::string &reason) {
-    throw UserError(path + ":" + std::to_string(line) + ": " + reason);
+void refuse_line(const std::string &file, long line, const std::string &reason) {
+    throw UserError(file + ":" + std::to_string(line) + ": " + reason);
 }
 
-void for_each_row(const std::string &path, const std::vector<const char *> &names,
+void for_each_row(const NamedText &file, const std::vector<const char *> &names,
                   const std::function<void(const MotRow &)> &visit) {
-    const std::string text = read_file(path);
-    for_each_line(text, [&](long number, std::string_view line) { visit(parse(path, number, line, names)); });
+    for_each_line(file.text, [&](long number, std::string_view line) { visit(parse(file.name, number, line, names)); });
 }
-
-std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
 }  // namespace examples

@@ -11,13 +11,19 @@ namespace examples {
 /// The highest frame number accepted: a typing error must not become a day of empty steps.
 constexpr long max_frame = 10'000'000;
 
+/// What a file holds, and what messages call it.
+struct NamedText {
+    std::string name;
+    std::string_view text;
+};
+
 /// `frame,id,left,top,width,height`, which all rows begin with, and all fields.
 struct MotRow {
     long frame;
     double id, left, top, width, height;
     std::vector<std::string_view> fields;
     /// Where it is, for messages.
-    const std::string &path;
+    const std::string &file;
     long line;
 
     /// Field `index` as a finite number; refused under that name if it is none.
@@ -30,14 +36,11 @@ struct MotRow {
 void for_each_line(std::string_view text, const std::function<void(long, std::string_view)> &visit);
 
 /// Throws a `UserError` about a line of a file.
-[[noreturn]] void refuse_line(const std::string &path, long line, const std::string &reason);
+[[noreturn]] void refuse_line(const std::string &file, long line, const std::string &reason);
 
 /// Calls `visit` for every row of a file of MOTChallenge rows; blank lines are skipped. `names` are those of the fields
 /// that there must be, the first six as above. Throws `UserError` with the line number and the reason for a bad row.
-void for_each_row(const std::string &path, const std::vector<const char *> &names,
+void for_each_row(const NamedText &file, const std::vector<const char *> &names,
                   const std::function<void(const MotRow &)> &visit);
-
-/// For messages.
-std::string quoted(std::string_view text);
 
 }  // namespace examples

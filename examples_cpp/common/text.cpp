@@ -46,8 +46,24 @@ std::vector<std::string_view> split_blanks(std::string_view line) {
     }
 }
 
+std::string quoted(std::string_view text) {
+    static constexpr std::size_t longest = 60;
+    std::string out = "\"";
+    for (const char c : text.substr(0, longest)) {
+        if (c >= ' ' && c <= '~') {
+            out += c;
+        } else {
+            char code[5];
+            std::snprintf(code, sizeof code, "\\x%02x", static_cast<unsigned>(static_cast<unsigned char>(c)));
+            out += code;
+        }
+    }
+    return out + (text.size() > longest ? "...\"" : "\"");
+}
+
 std::optional<double> parse_number(std::string_view text) {
-    if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+    // One sign; a minus is left to `from_chars`.
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;

@@ -23,6 +23,9 @@ std::vector<std::string_view> split_commas(std::string_view line);
 /// The pieces of `line` between blanks, tabs or commas; empty ones are dropped.
 std::vector<std::string_view> split_blanks(std::string_view line);
 
+/// `text` for a message: between quotes, what is not printable ASCII in hexadecimal, and cut if it is long.
+std::string quoted(std::string_view text);
+
 /// A finite number that fills the whole of `text`, in any locale.
 std::optional<double> parse_number(std::string_view text);
 

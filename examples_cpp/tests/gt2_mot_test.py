@@ -474,13 +474,20 @@ class Mistakes(Case):
             ("2,-1,10,10,20,40,", 'score "" is not a finite number'),
             ("2,-1,10,10,20,40,3.1", 'score "3.1" is outside 0..1 (--normalise-scores'),
             ("2,-1,10,10,20,40,-0.1", 'score "-0.1" is outside 0..1'),
+            ("2,-1,+-10,10,20,40,0.9", 'left "+-10" is not a finite number'),
+            ("\ufeff2,-1,10,10,20,40,0.9", 'frame "\\xef\\xbb\\xbf2" is not a finite number'),
+            ("2,-1,10,10,20,40," + 100 * "x", 'score "' + 60 * "x" + '..." is not a finite number'),
         ):
             with self.subTest(row=row):
                 self.refused_det(f"bad.txt:3: {reason}", self.good + "\n" + row + "\n" + self.good)
 
     def test_bad_camera_motion(self):
         for line, reason in (("2 1 0 0 0 1", "found 6 fields"), ("2 1 0 x 0 1 0", '"x" is not a finite number'),
-                             ("3 1 0 0 0 1 0", 'frame "3" where 2 is expected')):
+                             ("3 1 0 0 0 1 0", 'frame "3" where 2 is expected'),
+                             ("2 1 0 2e12 0 1 0", "a number of the matrix is beyond 1e12"),
+                             ("2 0 0 0 0 0 0", "the matrix scales by less than 0.001 or more than 1000"),
+                             ("2 1 0 0 0 1001 0", "the matrix scales by less than 0.001 or more than 1000"),
+                             ("2 1 1 0 1 1 0", "the matrix cannot be inverted")):
             with self.subTest(line=line):
                 gmc = self.file("gmc.txt", "1\t1\t0\t0\t0\t1\t0\t\n" + line + "\n")
                 self.refused_det("gmc.txt:2: ", self.good, "--gmc", gmc)
@@ -491,6 +498,10 @@ class Mistakes(Case):
         self.refused_det("e.f32: holds 12 bytes, but 1 rows of", self.good, "--embeddings", embeddings, "--dim", 4)
         embeddings = self.file("e.f32", bytes(4 * 5))
         self.refused_det("are 16", self.good, "--embeddings", embeddings, "--dim", 4)
+        embeddings = self.file("e.f32", struct.pack("<4f", 1, 0, float("nan"), 0))
+        self.refused_det("e.f32: number 1 of row 2, of ", self.good + "\n" + self.good, "--embeddings", embeddings,
+                         "--dim", 2)
+        self.refused_det("bad.txt:3, is not finite", self.good + "\n" + self.good, "--embeddings", embeddings, "--dim", 2)
         self.refused_det("--embeddings and --dim need each other", self.good, "--embeddings", embeddings)
 
     def test_inputs_are_not_overwritten(self):

@@ -160,6 +160,8 @@ static void ground_truth_of_each_format() {
     CHECK(refused("0,1,10,20,30,40\n", ":1: frame \"0\""));
     CHECK(refused("1,1,10,20,30\n", ":1: expected at least 6 fields"));
     CHECK(refused("1,1,10,20,30,40,1,z,1\n", ":1: class \"z\""));
+    CHECK(refused("1,1,10,20,30,40,1,1.5,1\n", ":1: class \"1.5\" is not an integer"));
+    CHECK(refused("1,1,10,20,30,40,1,1e300,1\n", ":1: class \"1e300\" is not an integer"));
 }
 
 int main() {
