@@ -255,7 +255,7 @@ impl GenTrack2 {
         }
     }
 
-    fn start_tracks(&mut self, frame: &Frame<'_>, context: &mut StepContext<'_>, ticks: f64) {
+    fn start_tracks(&mut self, frame: &Frame<'_>, context: &mut StepContext<'_>, ticks: f64, since_detector: f64) {
         let (p, work, memory) = (&self.parameters, &mut self.work, &mut self.memory);
         let rule = context.classes;
         let room = context.max_tracks.saturating_sub(memory.targets.len());
@@ -284,7 +284,9 @@ impl GenTrack2 {
                 work.learn(p, target, number, frame, memory.time, ticks);
                 continue;
             }
-            let found = reacquisition::find(p, lost, &work.unseen, seen, number, rule, &mut sight)
+            // Where nobody has looked for a lifetime, who was hidden can be anywhere, or gone.
+            let hidden = if since_detector <= p.max_missed { &work.unseen[..] } else { &[] };
+            let found = reacquisition::find(p, lost, hidden, seen, number, rule, &mut sight)
                 .or_else(|| recognition::find(p, lost, seen, number, rule, &mut sight));
             if let Some(found) = found {
                 let target = &mut memory.targets[found];
@@ -356,7 +358,7 @@ impl TrackingAlgorithm for GenTrack2 {
         let since_detector = if detector_ran { context.since_detector * ticks_per_frame } else { 0.0 };
         self.update_weak(frame, ticks, since_detector);
         if detector_ran {
-            self.start_tracks(frame, context, ticks);
+            self.start_tracks(frame, context, ticks, since_detector);
         }
         let full = self.memory.targets.len() >= context.max_tracks;
         self.remove_expired(frame.size(), full, output);
