@@ -3,35 +3,10 @@
  * their lines do. Usage: bits PATH..., where PATH.det.txt and PATH.f32 exist and PATH.gmc.txt may, as
  * tests/fixtures/oracles/README.md describes them. Image pixels are made up.
  */
+#include "results_hash.h"
 #include "sequence.h"
 
 enum { WIDTH = 640, HEIGHT = 360 };
-
-/* FNV-1a. */
-static uint64_t mix(uint64_t hash, const void *bytes, size_t size) {
-    for (size_t i = 0; i < size; i++) {
-        hash = (hash ^ ((const uint8_t *)bytes)[i]) * 1099511628211u;
-    }
-    return hash;
-}
-
-static uint64_t results(const gt2_tracker *tracker) {
-    uint64_t hash = 14695981039346656037u;
-    const uint64_t *ids = NULL;
-    size_t count = 0;
-    for (int32_t kind = GT2_TRACKS_REPORTED; kind <= GT2_TRACKS_LOST; kind++) {
-        gt2_track_list list = GT2_TRACK_LIST_INIT;
-        CHECK_OK(gt2_tracker_tracks(tracker, kind, &list));
-        for (size_t i = 0; i < list.count; i++) {
-            /* The struct has no padding. */
-            hash = mix(hash, gt2_track_at(&list, i), sizeof(gt2_track));
-        }
-    }
-    CHECK_OK(gt2_tracker_ended(tracker, &ids, &count));
-    hash = mix(hash, ids, count * sizeof *ids);
-    CHECK_OK(gt2_tracker_track_of_detection(tracker, &ids, &count));
-    return mix(hash, ids, count * sizeof *ids);
-}
 
 static void track(const char *algorithm, const sequence *s, int with_image) {
     static uint8_t pixels[WIDTH * HEIGHT];
@@ -58,7 +33,7 @@ static void track(const char *algorithm, const sequence *s, int with_image) {
         CHECK_OK(gt2_tracker_tracks(tracker, GT2_TRACKS_REPORTED, &list));
         reported += list.count;
         printf("%s %s%s %d %016llx\n", algorithm, strrchr(s->path, '/') + 1, with_image ? " with image" : "", t,
-               (unsigned long long)results(tracker));
+               (unsigned long long)hash_results(HASH_OF_NOTHING, tracker));
     }
     CHECK(reported > 100);
     /* A saved tracker is made of the same bytes, too. */
@@ -66,7 +41,11 @@ static void track(const char *algorithm, const sequence *s, int with_image) {
     CHECK_OK(gt2_tracker_save(tracker, NULL, 0, &size));
     uint8_t *saved = (uint8_t *)calloc(size + 1, 1);
     CHECK_OK(gt2_tracker_save(tracker, saved, size, &size));
-    printf("%s %s saved %016llx\n", algorithm, strrchr(s->path, '/') + 1, (unsigned long long)mix(0, saved, size));
+    uint64_t hash = HASH_OF_NOTHING;
+    for (size_t i = 0; i < size; i++) {
+        hash = hash_word(hash, saved[i]);
+    }
+    printf("%s %s saved %016llx\n", algorithm, strrchr(s->path, '/') + 1, (unsigned long long)hash);
     free(saved);
     gt2_tracker_free(tracker);
 }

@@ -1,4 +1,4 @@
-/* A synthetic sequence of tests/fixtures/oracles, as its README describes it. */
+/* Sequences of frames from files: those of tests/fixtures/oracles, as its README describes them, and MOT17's. */
 #ifndef SEQUENCE_H
 #define SEQUENCE_H
 
@@ -6,74 +6,112 @@
 
 #include "check.h"
 
-enum { FRAMES = 300, DIMENSION = 16, MOST = 4096 };
+/* Frames of a synthetic sequence, some of the last ones without detections, and numbers per embedding. */
+enum { FRAMES = 300, DIMENSION = 16 };
 
 typedef struct sequence {
-    const char *path;
+    const char *path; /* of a synthetic one */
+    int frames;
     gt2_detection *detections;
     float *embeddings;
-    size_t first[FRAMES + 2]; /* row of the first detection of frame t, from 1 */
-    double motion[FRAMES + 1][6];
+    size_t *first; /* row of the first detection of frame t, from 1 */
+    double (*motion)[6];
     int has_motion;
 } sequence;
 
-static inline FILE *open_part(const char *path, const char *ending) {
-    char name[1024];
-    snprintf(name, sizeof name, "%s%s", path, ending);
-    return fopen(name, "rb");
+/* A file PATH.ENDING or PATH/ENDING. */
+static inline FILE *open_part(const char *path, const char *separator, const char *ending) {
+    char name[2048];
+    const int length = snprintf(name, sizeof name, "%s%s%s", path, separator, ending);
+    return length > 0 && (size_t)length < sizeof name ? fopen(name, "rb") : NULL;
 }
 
-/* Reads a sequence; gives 0 if it is not what it should be. */
-static inline int read_sequence(sequence *s, const char *path) {
-    char line[512];
-    size_t rows = 0;
-    int frame = 0, last = 0;
-    memset(s, 0, sizeof *s);
-    s->path = path;
-    s->detections = (gt2_detection *)calloc(MOST, sizeof *s->detections * 4);
-    s->embeddings = (float *)calloc((size_t)MOST * 4 * DIMENSION, sizeof *s->embeddings);
-    FILE *file = open_part(path, ".det.txt");
-    if (file == NULL || s->detections == NULL || s->embeddings == NULL) {
-        return 0;
+static inline size_t count_lines(FILE *file) {
+    size_t lines = 0;
+    for (int c = fgetc(file); c != EOF; c = fgetc(file)) {
+        lines += c == '\n';
     }
-    while (fgets(line, sizeof line, file) != NULL && rows < (size_t)MOST * 4) {
-        gt2_detection *d = &s->detections[rows];
-        if (sscanf(line, "%d,%*d,%lf,%lf,%lf,%lf,%lf", &frame, &d->left, &d->top, &d->width, &d->height, &d->score) != 6 ||
-            frame < last || frame > FRAMES) {
+    rewind(file);
+    return lines;
+}
+
+static inline int read_detections(sequence *s, FILE *file, size_t rows) {
+    char line[512];
+    int frame = 0, last = 0;
+    for (size_t row = 0; row < rows; row++) {
+        gt2_detection *d = &s->detections[row];
+        if (fgets(line, sizeof line, file) == NULL) {
             return 0;
         }
-        d->tag = rows;
-        while (last < frame) {
-            s->first[++last] = rows;
+        const int fields = sscanf(line, "%d,%*d,%lf,%lf,%lf,%lf,%lf", &frame, &d->left, &d->top, &d->width, &d->height,
+                                  &d->score);
+        if (fields != 6 || frame < last || frame > s->frames) {
+            return 0;
         }
-        rows++;
+        d->tag = row;
+        d->class_id = (int32_t)(row % 3);
+        while (last < frame) {
+            s->first[++last] = row;
+        }
     }
-    fclose(file);
-    while (last <= FRAMES) {
+    while (last <= s->frames) {
         s->first[++last] = rows;
     }
-    file = open_part(path, ".f32");
-    if (file == NULL || fread(s->embeddings, sizeof(float) * DIMENSION, rows, file) != rows) {
-        return 0;
-    }
-    fclose(file);
-    file = open_part(path, ".gmc.txt");
-    s->has_motion = file != NULL;
-    for (int t = 1; s->has_motion && t <= FRAMES; t++) {
+    return 1;
+}
+
+static inline int read_motion(sequence *s, FILE *file) {
+    for (int t = 1; t <= s->frames; t++) {
         double *m = s->motion[t];
         if (fscanf(file, "%*d %lf %lf %lf %lf %lf %lf", &m[0], &m[1], &m[2], &m[3], &m[4], &m[5]) != 6) {
             return 0;
         }
     }
+    return 1;
+}
+
+/* Reads so many frames from files whose names begin alike; gives 0 if it is not what it should be. The camera's motion
+ * may be missing. */
+static inline int read_files(sequence *s, int frames, const char *path, const char *separator, const char *embeddings) {
+    memset(s, 0, sizeof *s);
+    s->frames = frames;
+    FILE *file = open_part(path, separator, "det.txt");
+    const size_t rows = file == NULL ? 0 : count_lines(file);
+    if (rows == 0) {
+        return 0;
+    }
+    s->detections = (gt2_detection *)calloc(rows, sizeof *s->detections);
+    s->embeddings = (float *)calloc(rows * DIMENSION, sizeof *s->embeddings);
+    s->first = (size_t *)calloc((size_t)frames + 2, sizeof *s->first);
+    s->motion = (double(*)[6])calloc((size_t)frames + 1, sizeof *s->motion);
+    int good = s->detections && s->embeddings && s->first && s->motion && read_detections(s, file, rows);
+    fclose(file);
+    file = open_part(path, separator, embeddings);
+    good = good && file != NULL && fread(s->embeddings, sizeof(float) * DIMENSION, rows, file) == rows;
     if (file != NULL) {
         fclose(file);
     }
-    return rows > 0;
+    file = open_part(path, separator, "gmc.txt");
+    s->has_motion = file != NULL;
+    if (file != NULL) {
+        good = good && read_motion(s, file);
+        fclose(file);
+    }
+    return good;
+}
+
+/* Reads a synthetic sequence. */
+static inline int read_sequence(sequence *s, const char *path) {
+    const int good = read_files(s, FRAMES, path, ".", "f32");
+    s->path = path;
+    return good;
 }
 
 static inline void free_sequence(sequence *s) {
     free(s->detections);
     free(s->embeddings);
+    free(s->first);
+    free(s->motion);
 }
 
 /* Frame t, from 1, with all that the sequence has. */

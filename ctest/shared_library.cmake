@@ -1,5 +1,6 @@
 # Checks a shared library: it exports exactly the functions of the header, needs nothing but the C library and the
-# compiler's own, and bears its versioned name. Variables: LIBRARY, HEADER, SONAME, NM, READELF.
+# compiler's own, bears its versioned name, and rounds every product. Variables: LIBRARY, HEADER, SONAME, NM, READELF,
+# OBJDUMP.
 cmake_minimum_required(VERSION 3.25)
 
 function(expect_equal what actual expected)
@@ -41,6 +42,15 @@ foreach(entry IN LISTS needed)
         message(SEND_ERROR "needs more than it may: ${entry}")
     endif()
 endforeach()
+
+# A product that is added without being rounded first gives other bits than on a machine without such instructions.
+execute_process(COMMAND "${OBJDUMP}" -d --no-show-raw-insn "${LIBRARY}" OUTPUT_VARIABLE code COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCH "\t(mulsd|fmul|vmul\\.f64)[ \t]" product "${code}")
+string(REGEX MATCHALL "\t(vf?n?m(add|sub)[0-9a-z]*|fn?m(add|sub)|fml[as]|vfn?m[as]\\.f[0-9]+)[ \t][^\n]*" fused "${code}")
+if(NOT product)
+    message(SEND_ERROR "no product found in the code of ${LIBRARY}")
+endif()
+expect_equal("fused products" "${fused}" "")
 
 # The name that programs look for leads to the library.
 get_filename_component(directory "${LIBRARY}" DIRECTORY)
