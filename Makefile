@@ -11,7 +11,7 @@ export GENTRACK2_SHARED := $(abspath ../shared)
 endif
 endif
 
-.PHONY: help build install package docs demo test arm eval tune eval-check accuracy bench bench-instructions fuzz \
+.PHONY: help build install package docs demo test soak arm eval tune eval-check accuracy bench bench-instructions fuzz \
     sanitize deny reproducible lint fmt-check clean
 
 help:
@@ -21,6 +21,7 @@ help:
 	@echo "make docs       the manual and the references of the C, C++ and Rust interfaces, in $(BUILD)/docs/"
 	@echo "make demo       track OpenCV's sample video; results in out/"
 	@echo "make test       all tests: Rust, C and C++"
+	@echo "make soak       every tracker through a million frames, good and bad: FRAMES=1000000; some ten minutes"
 	@echo "make arm        the library for ARM, 64 and 32 bits, and its tests under qemu"
 	@echo "make eval DATA=FOLDER"
 	@echo "                all trackers on your sequences in MOTChallenge's layout: a page, out/eval/index.html;"
@@ -76,6 +77,13 @@ test:
 	@$(MAKE) --no-print-directory build
 	cargo test
 	ctest --test-dir $(BUILD) --output-on-failure
+
+FRAMES ?= 1000000
+
+soak:
+	@tools/install-needs.sh build
+	@$(MAKE) --no-print-directory build
+	$(BUILD)/ctest/soak tests/fixtures $(FRAMES) --judge-times
 
 arm:
 	@tools/install-needs.sh arm
