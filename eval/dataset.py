@@ -47,6 +47,9 @@ class Sequence:
     # Scores of the detections are of any range.
     normalise: bool = False
     estimate_motion: bool = False
+    # The detector runs on every so many-th frame; frames get times, so many a second.
+    detect_every: typing.Optional[int] = None
+    timestamp_rate: typing.Optional[float] = None
 
     def arguments(self, looks):
         """What gt2_mot is told about the sequence: option, value and whether that is a file. `looks` tells whether the
@@ -57,7 +60,8 @@ class Sequence:
                  ("--dim", self.dimension, False), ("--video" if video else "--images", images, True),
                  # A video says itself how large it is.
                  ("--size", None if images else self.size, False), ("--frames", self.frames, False),
-                 ("--fps", None if self.fps is None else f"{self.fps:g}", False)]
+                 ("--fps", None if self.fps is None else f"{self.fps:g}", False),
+                 ("--detect-every", self.detect_every, False), ("--timestamp-rate", self.timestamp_rate, False)]
         given += [("--normalise-scores", "", False)] * self.normalise
         given += [("--estimate-camera-motion", "", False)] * self.estimate_motion
         return [(option, str(value), is_file) for option, value, is_file in given if value is not None]

@@ -34,8 +34,14 @@ TITLES = {
     "D": "DanceTrack, eight sequences, YOLOX, camera motion",
 }
 NAMES = list(TITLES)
+# The detector on every k-th frame, the ways to use that: docs/degraded-input.md. Only run where asked for.
+STEPS = (2, 3, 5)
+TITLES |= {f"S{k}": f"H, the detector on every {k}. frame, the others stepped as rests and judged, too" for k in STEPS}
+TITLES |= {f"T{k}": f"H at every {k}. frame, with timestamps" for k in STEPS}
+TITLES |= {f"N{k}": f"H at every {k}. frame, which nobody is told" for k in STEPS}
 # Letters that stand for several.
 GROUPS = {"W": ["Ws", "Wf"], "L": ["L2", "L4"], "all": NAMES}
+GROUPS |= {kind: [f"{kind}{k}" for k in STEPS] for kind in "STN"}
 
 
 def expand(text):
@@ -108,6 +114,13 @@ class Builder:
                                    gmc=f"{directory}/gmc.txt", fps=sequence.fps / step,
                                    frames=derive.subsampled_length(sequence.frames, step))
 
+    def every(self, sequence, kind, step):
+        """The sequence with a detector that only runs on every so many-th frame."""
+        if kind == "S":
+            return dataclasses.replace(sequence, detect_every=step)
+        rate = sequence.fps / step if kind == "T" else None
+        return dataclasses.replace(self.slower(sequence, step), fps=sequence.fps, timestamp_rate=rate)
+
     def video(self, name):
         if name != frames.SAMPLE_SEQUENCE:
             return self.path("mot15", name, "video.mp4")
@@ -129,12 +142,15 @@ class Builder:
 
     def build(self, name):
         """The set-up of that name; raises Missing."""
-        rules = judge.Rules("half" if name in ("H", "L2", "L4") else "full",
+        kind = name[0]
+        rules = judge.Rules("half" if kind in "HLSTN" else "full",
                             judge.PEOPLE if name in ("P", "Ws", "Wf", "R") else None)
-        if name in ("H", "L2", "L4"):
+        if rules.split == "half":
             sequences = [self.sequence("mot17", each, gmc=True) for each in MOT17]
-            if name != "H":
+            if kind == "L":
                 sequences = [self.slower(each, int(name[1:])) for each in sequences]
+            elif kind != "H":
+                sequences = [self.every(each, kind, int(name[1:])) for each in sequences]
         elif rules.classes:
             det = {"Ws": "det-sdp.txt", "Wf": "det-frcnn.txt"}.get(name, "det.txt")
             sequences = [self.sequence("mot17", PAPERS, det)]

@@ -1,6 +1,7 @@
 // What is known about one frame, as a tracker gets it.
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core.hpp>
 #include <optional>
 
@@ -12,6 +13,9 @@ struct FrameInput {
     /// From 1.
     long frame = 0;
     FrameRows rows;
+    /// Whether the detector ran; without it there are no rows.
+    bool detected = true;
+    std::optional<std::int64_t> timestamp_ns;
     /// Numbers per embedding, 0 without.
     int dimension = 0;
     /// BGR; empty without images.

@@ -50,7 +50,9 @@ bool Inputs::next(FrameInput &input) {
     if (frames && frame_ == *frames) return false;
     if (source_.has_images() && !source_.read(input.image)) return false;
     input.frame = ++frame_;
-    input.rows = rows_of(input.image);
+    input.detected = detector_runs();
+    input.rows = input.detected ? rows_of(input.image) : FrameRows{};
+    input.timestamp_ns = timestamp();
     input.dimension = options_.dimension;
     input.size = options_.size;
     input.motion = motion_of(input);
@@ -68,6 +70,11 @@ FrameRows Inputs::rows_of(const cv::Mat &image) {
     const auto dropped = [&](const DetectionRow &row) { return !options_.filter.passes(row); };
     all.erase(std::remove_if(all.begin(), all.end(), dropped), all.end());
     return rows;
+}
+
+std::optional<std::int64_t> Inputs::timestamp() const {
+    if (!options_.timestamp_rate) return std::nullopt;
+    return std::llround(static_cast<double>(frame_ - 1) * 1e9 / *options_.timestamp_rate);
 }
 
 std::optional<Affine> Inputs::motion_of(const FrameInput &input) {

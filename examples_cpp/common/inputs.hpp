@@ -34,6 +34,10 @@ struct InputOptions {
     std::optional<cv::Size> size;
     /// How many to read; by default all there are.
     std::optional<long> frames;
+    /// The detector runs on the first of so many frames, and rests on the others.
+    long detect_every = 1;
+    /// Frames per second by which frames get timestamps; by default they get none.
+    std::optional<double> timestamp_rate;
 
     bool has_images() const { return !video.empty() || !images.empty(); }
 };
@@ -63,7 +67,9 @@ public:
 
 private:
     std::optional<long> length() const;
+    bool detector_runs() const { return (frame_ - 1) % options_.detect_every == 0; }
     FrameRows rows_of(const cv::Mat &image);
+    std::optional<std::int64_t> timestamp() const;
     std::optional<Affine> motion_of(const FrameInput &input);
 
     InputOptions options_;

@@ -77,6 +77,9 @@ void Session::step(const FrameInput &input, StepTimes &times) {
         frame.embeddings = input.rows.embeddings.data();
         frame.embedding_dimension = static_cast<std::size_t>(input.dimension);
     }
+    frame.detector_skipped = !input.detected;
+    frame.has_timestamp = input.timestamp_ns.has_value();
+    frame.timestamp_ns = input.timestamp_ns.value_or(0);
     gt2_image image = GT2_IMAGE_INIT;
     if (!input.image.empty()) {
         image = gentrack2::image(input.image);

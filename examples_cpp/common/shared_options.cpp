@@ -20,6 +20,8 @@ OptionTable input_options(ArgumentReader &r, InputOptions &o) {
         {"--max-height", [&] { o.filter.max_height = r.number(0, 1e6, "a number of pixels"); }},
         {"--normalise-scores", [&] { o.normalise_scores = true; }},
         {"--frames", [&] { o.frames = r.integer(1, max_frame); }},
+        {"--detect-every", [&] { o.detect_every = r.integer(1, max_frame); }},
+        {"--timestamp-rate", [&] { o.timestamp_rate = r.number(1e-3, 1e6, "a number of frames per second"); }},
         {"--gmc", [&] { o.gmc = r.value(); }},
         {"--embeddings", [&] { o.embeddings = r.value(); }},
         {"--dim", [&] { o.dimension = static_cast<int>(r.integer(1, 16384)); }},

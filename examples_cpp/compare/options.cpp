@@ -46,6 +46,8 @@ of identities so far, and prints a line about each. With --truth identity switch
   --fps F              frames per second; by default that of --video, else the trackers' default
   --size WxH           size of the frames in pixels, where there are none to look at
   --frames N           number of frames; by default all
+  --detect-every K     run the detector on frames 1, 1 + K, 1 + 2K, ... only
+  --timestamp-rate F   give every frame its time, F frames per second
   --particles          draw the trackers' particles
   --neighbours         draw the neighbours that guided each weak track
   --focus ID,ID,..     draw these identities bold, and particles and neighbours of these alone

@@ -38,6 +38,9 @@ Tracks the objects of a video or of a file of detections and writes MOTChallenge
   --fps F              frames per second; by default that of --video, else the tracker's default
   --frames N           number of frames to step; by default all of --video or --images, else up to the last
                        frame of --det or --gmc
+  --detect-every K     run the detector on frames 1, 1 + K, 1 + 2K, ... only; the tracker is told of the others that it
+                       rested there, and rows of --det for them are left out
+  --timestamp-rate F   give every frame its time, F frames per second; --fps stays the nominal rate
   --seed N             seed of the tracker's random numbers
   --config FILE        TOML file of parameters
   --set KEY=VALUE      a parameter; may be given again

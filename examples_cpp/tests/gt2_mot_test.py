@@ -142,6 +142,26 @@ class Results(Case):
         gmc = self.file("gmc.txt", "".join(f"{k} 1 0 0 0 1 0\n" for k in range(27)))
         self.assertIn("steps 27,", steps("--gmc", gmc))
 
+    def test_detector_on_every_third_frame(self):
+        """The rows in between are not read, and the tracker is told that nobody looked: nobody is lost there."""
+        rows = walk(30)
+        everything = self.file("all.txt", text_of(rows))
+        thirds = self.file("thirds.txt", text_of([row for row in rows if row[0] % 3 == 1]))
+        rested = self.tracks("--det", everything, "--detect-every", 3)
+        self.assertEqual(rested, self.tracks("--det", thirds, "--frames", 30, "--detect-every", 3))
+        frames = [int(line.split(",")[0]) for line in rested.splitlines()]
+        self.assertTrue(all(frames.count(frame) == 3 for frame in range(10, 31)), frames)
+        self.assertNotEqual(rested, self.tracks("--det", thirds, "--frames", 30), "empty frames are misses")
+
+    def test_timestamps(self):
+        """At the nominal rate they say nothing new; at half of it, two frame intervals go by per frame."""
+        rows = [row for row in walk(40) if row[0] < 20]
+        det = self.file("det.txt", text_of(rows))
+        common = ("--det", det, "--fps", 30, "--frames", 200, "--all-states")
+        last = lambda *more: max(int(line.split(",")[0]) for line in self.tracks(*common, *more).splitlines())
+        self.assertEqual(last("--timestamp-rate", 30), last())
+        self.assertAlmostEqual(last("--timestamp-rate", 15) - 19, (last() - 19) / 2, delta=1)
+
     def test_no_detections_are_no_frames(self):
         for content in ("", "\n\n"):
             self.assertEqual(self.tracks("--det", self.file("det.txt", content)), "")
