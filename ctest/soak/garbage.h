@@ -106,7 +106,7 @@ static inline gt2_status spoil(garbage *g, gt2_frame *frame, int64_t now) {
         frame->embeddings = NULL;
         frame->embedding_dimension = 0;
         return GT2_ERR_LIMIT;
-    case 7: frame->embedding_dimension = DIMENSION + 1 + random_below(random, 100000); return GT2_ERR_EMBEDDINGS;
+    case 7: frame->embedding_dimension = DIMENSION + 1 + random_below(random, 1000); return GT2_ERR_EMBEDDINGS;
     case 8:
         own_detections(g, frame);
         frame->detection_count = 1;

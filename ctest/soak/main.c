@@ -134,11 +134,14 @@ static void step_accepted(run *r, gt2_frame *frame, int is_garbage) {
     r->accepted++;
 }
 
-/* Buffers grow to the size of the largest crowd and the largest pile, which would else come late. */
+/*
+ * Buffers grow to the size of the largest pile and the largest crowd, which would else come late. The crowd comes last
+ * and stays, so that what tracks leave to later ones, such as deepsort's galleries, has its largest size, too.
+ */
 static void warm_up(run *r) {
     for (int t = 0; t < WARM_UP && check_failures == 0; t++) {
         gt2_frame frame = crowd_frame(r->garbage);
-        if (t >= WARM_UP - 5) {
+        if (t < 5) {
             random_boxes(r->garbage, &frame, PILE, 1);
         }
         CHECK_OK(gt2_tracker_step(r->tracker, &frame));
