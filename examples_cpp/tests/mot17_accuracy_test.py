@@ -51,7 +51,8 @@ def score(shared, ground_truth, results, *options):
     command = [sys.executable, f"{shared}/tools/eval_mot.py", "--gt", ground_truth, "--res", results, "--json", *options]
     done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
-    return json.loads(done.stdout)["COMBINED_SEQ"]
+    # TrackEval may say before it which of its data sets lack a package.
+    return json.loads(done.stdout.splitlines()[-1])["COMBINED_SEQ"]
 
 
 def measure(program, tracker, shared, names, work):

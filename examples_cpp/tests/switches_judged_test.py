@@ -32,7 +32,8 @@ def run(*command):
 def judged(shared, work, name):
     judge = (sys.executable, f"{shared}/tools/eval_mot.py")
     out = run(*judge, "--gt", f"{work}/gt", "--res", work, "--seq", name, "--json")
-    return json.loads(out)[name]["IDSW"]
+    # TrackEval may say before it which of its data sets lack a package.
+    return json.loads(out.splitlines()[-1])[name]["IDSW"]
 
 
 def main():
