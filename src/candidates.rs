@@ -7,6 +7,7 @@
 
 mod column;
 mod grid;
+mod intervals;
 mod window;
 
 use crate::assignment::refill;

@@ -7,6 +7,7 @@ use crate::assignment::refill;
 use crate::geometry::Rect;
 
 use super::column::Column;
+use super::intervals::Intervals;
 
 /// Sides of a cell in mean sides of a box: in smaller cells boxes are listed more often, in larger ones more are looked at.
 const CELL: f64 = 1.5;
@@ -28,24 +29,8 @@ pub struct Grid {
 /// Equal cells; the outermost go on for ever.
 #[derive(Clone, Copy, Debug)]
 struct Cells {
-    x: Axis,
-    y: Axis,
-}
-
-/// Equal intervals. A larger number never has a lower interval, whatever rounding does, so that boxes that overlap meet in a
-/// cell.
-#[derive(Clone, Copy, Debug)]
-struct Axis {
-    from: f64,
-    per_pixel: f64,
-    last: usize,
-}
-
-impl Axis {
-    /// The cast makes 0 of what is before all, and of NaN.
-    fn of(&self, x: f64) -> usize {
-        (((x - self.from) * self.per_pixel) as usize).min(self.last)
-    }
+    x: Intervals,
+    y: Intervals,
 }
 
 impl Cells {
@@ -68,7 +53,7 @@ impl Cells {
         let coarser = (across * down / (CELLS_PER_BOX * count)).max(1.0).sqrt();
         let axis = |from: f64, length: f64, cells: f64| {
             let cells = (cells / coarser).max(1.0);
-            Axis { from, per_pixel: cells / length, last: cells as usize }
+            Intervals { from, per_pixel: cells / length, last: cells as usize }
         };
         // A long row of boxes has its cells along it, not more of them.
         let cells = Self { x: axis(left, right - left, across), y: axis(top, bottom - top, down) };

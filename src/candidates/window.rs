@@ -5,6 +5,7 @@ use crate::assignment::refill;
 use crate::geometry::Rect;
 
 use super::column::Column;
+use super::intervals::Intervals;
 
 /// Up to so many pairs are all looked at, without bins.
 const ALL: usize = 512;
@@ -20,30 +21,15 @@ pub struct Window {
     found: Vec<u32>,
 }
 
-/// Bins of equal width; the first and the last go on for ever. A larger number never has a lower bin, whatever rounding
-/// does, so that what a bin leaves out cannot overlap.
-#[derive(Clone, Copy, Debug)]
-struct Bins {
-    left: f64,
-    per_pixel: f64,
-    last: usize,
-}
-
-impl Bins {
-    fn new(columns: &[Rect]) -> Self {
-        let (mut left, mut right) = (f64::INFINITY, f64::NEG_INFINITY);
-        for c in columns {
-            left = left.min(c.left);
-            right = right.max(c.left);
-        }
-        let count = 2 * columns.len();
-        Self { left, per_pixel: count as f64 / (right - left), last: count - 1 }
+/// Bins for these columns, by their left edges.
+fn bins_for(columns: &[Rect]) -> Intervals {
+    let (mut left, mut right) = (f64::INFINITY, f64::NEG_INFINITY);
+    for c in columns {
+        left = left.min(c.left);
+        right = right.max(c.left);
     }
-
-    /// The cast makes 0 of what is left of all, and of NaN.
-    fn of(&self, x: f64) -> usize {
-        (((x - self.left) * self.per_pixel) as usize).min(self.last)
-    }
+    let count = 2 * columns.len();
+    Intervals { from: left, per_pixel: count as f64 / (right - left), last: count - 1 }
 }
 
 impl Window {
@@ -53,7 +39,7 @@ impl Window {
         if rows.is_empty() || columns.is_empty() {
             return true;
         }
-        let bins = (rows.len() * columns.len() > ALL).then(|| Bins::new(columns));
+        let bins = (rows.len() * columns.len() > ALL).then(|| bins_for(columns));
         match &bins {
             Some(bins) => self.list_by_bin(columns, bins),
             None => self.list(columns),
@@ -88,7 +74,7 @@ impl Window {
     }
 
     /// Lists the columns by the bins of their left edges.
-    fn list_by_bin(&mut self, columns: &[Rect], bins: &Bins) {
+    fn list_by_bin(&mut self, columns: &[Rect], bins: &Intervals) {
         let present = || (0..).zip(columns).filter(|(_, c)| c.area() > 0.0);
         refill(&mut self.end, bins.last + 1, 0);
         present().for_each(|(_, c)| self.end[bins.of(c.left)] += 1);
