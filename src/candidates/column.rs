@@ -10,11 +10,13 @@ pub struct Column {
     top: f64,
     bottom: f64,
     pub index: u32,
+    /// Whatever else a search has to know of it.
+    pub mark: u8,
 }
 
 impl Column {
     pub fn of((index, c): (u32, &Rect)) -> Self {
-        Self { left: c.left, right: c.right(), top: c.top, bottom: c.bottom(), index }
+        Self { left: c.left, right: c.right(), top: c.top, bottom: c.bottom(), index, mark: 0 }
     }
 
     /// Whether they share an area, without a branch.

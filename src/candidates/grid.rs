@@ -26,6 +26,10 @@ pub struct Grid {
     found: Vec<u32>,
 }
 
+// What is true of a cell among those that a box meets; columns are marked with it.
+const NOT_LEFTMOST: u8 = 1;
+const NOT_TOPMOST: u8 = 2;
+
 /// Equal cells; the outermost go on for ever.
 #[derive(Clone, Copy, Debug)]
 struct Cells {
@@ -65,12 +69,13 @@ impl Cells {
         (self.x.last + 1).saturating_mul(self.y.last + 1)
     }
 
-    /// The cells that a box meets: of some lines of cells so many, one after the other.
-    fn of(&self, rect: &Rect) -> impl Iterator<Item = Range<usize>> + use<> {
+    /// The cells that a box meets: of some lines of cells so many, one after the other; with each line what is true of it.
+    fn of(&self, rect: &Rect) -> impl Iterator<Item = (Range<usize>, u8)> + use<> {
         let (left, right) = (self.x.of(rect.left), self.x.of(rect.right()));
         let (top, bottom) = (self.y.of(rect.top), self.y.of(rect.bottom()));
         let across = self.x.last + 1;
-        (top..=bottom).map(move |y| y * across + left..y * across + right + 1)
+        let place = move |y| if y == top { 0 } else { NOT_TOPMOST };
+        (top..=bottom).map(move |y| (y * across + left..y * across + right + 1, place(y)))
     }
 }
 
@@ -85,27 +90,28 @@ impl Grid {
         let mut looks = MOST_LOOKS * rows.len();
         for (row, rect) in (0..).zip(rows).filter(|(_, r)| r.area() > 0.0) {
             let mut count = 0;
-            for line in cells.of(rect) {
-                let listed = &self.list[self.first[line.start] as usize..self.first[line.end] as usize];
-                let Some(left_over) = looks.checked_sub(listed.len()) else { return false };
+            for (line, place) in cells.of(rect) {
+                let [start, second, end] = [line.start, line.start + 1, line.end].map(|cell| self.first[cell] as usize);
+                let Some(left_over) = looks.checked_sub(end - start) else { return false };
                 looks = left_over;
-                if self.found.len() < count + listed.len() {
-                    self.found.resize(count + listed.len(), 0);
+                if self.found.len() < count + end - start {
+                    self.found.resize(count + end - start, 0);
                 }
-                for column in listed {
-                    // Written in any case, and written over if it was none.
-                    self.found[count] = column.index;
-                    count += usize::from(column.overlaps(rect));
+                // Boxes may meet in several cells, and count in the first: where one or the other begins.
+                for (cells, elsewhere) in [(start..second, place), (second..end, place | NOT_LEFTMOST)] {
+                    for column in &self.list[cells] {
+                        // Written in any case, and written over if it was none.
+                        self.found[count] = column.index;
+                        count += usize::from(column.overlaps(rect) & (column.mark & elsewhere == 0));
+                    }
                 }
             }
-            // Boxes may meet in several cells.
-            let found = &mut self.found[..count];
-            found.sort_unstable();
-            let before = pairs.len();
-            pairs.extend(found.chunk_by(|a, b| a == b).map(|same| (row, same[0])));
-            if pairs.len() - before > most {
+            if count > most {
                 return false;
             }
+            let found = &mut self.found[..count];
+            found.sort_unstable();
+            pairs.extend(found.iter().map(|column| (row, *column)));
         }
         true
     }
@@ -117,7 +123,7 @@ impl Grid {
         let most = MOST_CELLS * columns.len();
         let mut total = 0;
         for (_, rect) in present() {
-            for line in cells.of(rect) {
+            for (line, _) in cells.of(rect) {
                 total += line.len();
                 if total > most {
                     return false;
@@ -132,11 +138,14 @@ impl Grid {
             *n = before;
         }
         refill(&mut self.list, total, Column::default());
-        for column in present() {
-            for line in cells.of(column.1) {
+        for present in present() {
+            let mut column = Column::of(present);
+            for (line, place) in cells.of(present.1) {
+                column.mark = place;
                 for next in &mut self.first[line] {
                     *next -= 1;
-                    self.list[*next as usize] = Column::of(column);
+                    self.list[*next as usize] = column;
+                    column.mark |= NOT_LEFTMOST;
                 }
             }
         }

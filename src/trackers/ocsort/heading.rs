@@ -8,6 +8,9 @@ use crate::geometry::{Rect, State};
 /// What directions are divided by is never 0.
 const EPSILON: f64 = 1e-6;
 
+/// What leaves room for rounding in a comparison of squares.
+const SURELY: f64 = 1.0 - 1e-9;
+
 /// A direction, of length 1 but for points that coincide.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
@@ -52,10 +55,26 @@ impl Heading {
     }
 
     /// Cosine of the angle between the track's direction and the one to the detection.
-    pub fn cosine(&self, detected: &Rect) -> f64 {
-        let to = State::from(*detected);
-        let towards = Direction::of(to.u - self.from.0, to.v - self.from.1);
+    fn cosine(&self, detected: &Rect) -> f64 {
+        let (x, y) = self.way_to(detected);
+        let towards = Direction::of(x, y);
         self.direction.x * towards.x + self.direction.y * towards.y
+    }
+
+    /// The same if it exceeds a limit that is not negative.
+    pub fn cosine_above(&self, detected: &Rect, limit: f64) -> Option<f64> {
+        let (x, y) = self.way_to(detected);
+        let along = self.direction.x * x + self.direction.y * y;
+        // Most do not by far, which is told without a root; with the sign kept there is one branch, and hardly ever taken.
+        if along * along.abs() < SURELY * limit * limit * (x * x + y * y) {
+            return None;
+        }
+        Some(self.cosine(detected)).filter(|cosine| *cosine > limit)
+    }
+
+    fn way_to(&self, detected: &Rect) -> (f64, f64) {
+        let to = State::from(*detected);
+        (to.u - self.from.0, to.v - self.from.1)
     }
 
     /// How well a detection lies in the direction of the track, in `[-1/2, 1/2]`: straight on is 1/2, back is -1/2.
@@ -78,7 +97,12 @@ mod tests {
         assert!(near(heading.consistency(&at(40.0, 40.0)), 0.25));
         assert!(near(heading.consistency(&at(0.0, 40.0)), 0.0));
         assert!(near(heading.consistency(&at(-40.0, 0.0)), -0.5));
-        assert!(heading.cosine(&at(40.0, 40.0)) > 0.0 && heading.cosine(&at(-1.0, 40.0)) < 0.0);
+        for (x, y) in [(40.0, 40.0), (-1.0, 40.0), (40.0, 0.0), (3.0, -40.0), (0.0, 0.0)] {
+            let cosine = heading.cosine(&at(x, y));
+            for limit in [0.0, 0.05, 0.7, cosine.max(0.0), (cosine - 1e-12).max(0.0)] {
+                assert_eq!(heading.cosine_above(&at(x, y), limit), Some(cosine).filter(|c| *c > limit));
+            }
+        }
         // Where it was there is no direction.
         assert!(near(heading.consistency(&at(0.0, 0.0)), 0.0));
     }

@@ -128,7 +128,7 @@ impl OcSort {
             let bound = |d: u32| 0.5 * p.inertia * detection(d).score;
             // Who went nowhere yet is as good for one as for another.
             let is_plain = |t: u32| view(t).heading.is_none() && context.classes.compares_all();
-            let rank = |d: u32, t: u32| view(t).heading.as_ref().map_or(0.0, |h| h.cosine(&detection(d).rect));
+            let rank = |d: u32, t: u32, limit: f64| view(t).heading.as_ref()?.cosine_above(&detection(d).rect, limit);
             association.best_sum(&Extra { bonus, rank, bound, is_plain, allowed });
         }
         self.take_partners(detections, true);

@@ -1,4 +1,5 @@
-//! Which pairs belong to *every* largest sum over all pairs, told from the overlapping pairs alone.
+//! Which pairs belong to *every* largest sum over all pairs, told from the overlapping pairs alone, of which no single one
+//! dominates the others.
 //!
 //! Let a pair that overlaps have the value `v`, and any other pair one of at most `b` in amount. Let `M` be a matching of
 //! overlapping pairs, `F` a best assignment of the whole smaller side, and `D` a component of the symmetric difference of
@@ -19,11 +20,9 @@
 //! the rest is tested again. What remains are pairs neither of whose members `M` matches; they are no concern where they
 //! are dropped for overlapping too little anyway.
 
+use super::dominant_pairs::CLEAR;
+use super::valued::Valued;
 use crate::assignment::{Assignment, Edge, UNMATCHED, refill};
-use crate::trackers::overlaps::Overlap;
-
-/// By how much pairs must be better than their alternatives: far more than rounding, far less than any overlap.
-const CLEAR: f64 = 1e-9;
 
 /// Tests after which nothing is certain. A scene needs three or four.
 const MOST_TESTS: usize = 12;
@@ -36,97 +35,118 @@ const MOST_PER_ROW: usize = 16;
 pub struct CertainPairs {
     solver: Assignment,
     edges: Vec<Edge>,
+    /// The pairs with numbers of their own for rows and columns, of which they have few, and whose these are.
+    pairs: Vec<Valued>,
+    rows: Vec<u32>,
+    columns: Vec<u32>,
+    number_of_column: Vec<u32>,
+    chosen: Vec<u32>,
     column_is_chosen: Vec<bool>,
 }
 
 impl CertainPairs {
-    /// Finds for each row its certain column, or [`UNMATCHED`]; true if no pair that matters is open. `pairs` are sorted by
-    /// row, `values` are theirs, and those from `threshold` on matter. So many columns of `sizes` are `spare`.
-    #[allow(clippy::too_many_arguments)]
-    pub fn find(
+    /// Gives rows the columns, of so many, that are certain, and leaves in `pairs` those whose members have none; true if
+    /// none of these matters, which those from `threshold` on do. `pairs` are sorted by row, and their members have no
+    /// partners yet; a pair that is not listed can be worth `bound`, and nothing at all in `plain` columns.
+    pub fn take_from(
         &mut self,
-        sizes: (usize, usize),
-        pairs: &[Overlap],
-        values: &[f64],
+        pairs: &mut Vec<Valued>,
+        columns: usize,
         bound: f64,
-        spare: usize,
+        is_plain: impl Fn(u32) -> bool,
         threshold: f64,
-        certain: &mut Vec<u32>,
+        partners: &mut [u32],
     ) -> bool {
-        if pairs.len() > MOST_PER_ROW * sizes.0 {
-            refill(certain, sizes.0, UNMATCHED);
-            return false;
+        let matters = |pairs: &[Valued]| pairs.iter().any(|p| p.iou >= threshold);
+        if !matters(pairs) || pairs.len() > MOST_PER_ROW * partners.len() {
+            return !matters(pairs);
         }
-        let left_out = |certain: &[u32]| certain.iter().filter(|c| **c == UNMATCHED).count();
-        // At least the rows that overlap nothing are left out.
-        let with_pairs = pairs.chunk_by(|a, b| a.row == b.row).count();
+        self.number(pairs, columns, partners);
+        let is_spare = |(column, number): (u32, &u32)| *number == UNMATCHED && is_plain(column);
+        let spare = (0..).zip(&self.number_of_column).filter(|c| is_spare(*c)).count();
+        let open = partners.iter().filter(|c| **c == UNMATCHED).count();
+        let left_out = |chosen: &[u32]| open - chosen.iter().filter(|c| **c != UNMATCHED).count();
         let mut is_done = false;
-        if spare >= sizes.0 - with_pairs {
-            self.choose(sizes, pairs, values, [bound, 2.0 * bound], certain);
-            is_done = spare >= left_out(certain);
+        // At least the rows that overlap nothing are left out.
+        if spare >= open - self.rows.len() {
+            self.choose([bound, 2.0 * bound]);
+            is_done = spare >= left_out(&self.chosen);
         }
         if !is_done {
-            self.choose(sizes, pairs, values, [bound, 3.0 * bound], certain);
+            self.choose([bound, 3.0 * bound]);
         }
-        let is_open = |p: &Overlap| certain[p.row as usize] == UNMATCHED && !self.column_is_chosen[p.column as usize];
-        !pairs.iter().any(|p| p.iou >= threshold && is_open(p))
+        for (row, chosen) in self.rows.iter().zip(&self.chosen).filter(|(_, chosen)| **chosen != UNMATCHED) {
+            partners[*row as usize] = self.columns[*chosen as usize];
+        }
+        let is_chosen = |column: u32| self.column_is_chosen[self.number_of_column[column as usize] as usize];
+        pairs.retain(|p| partners[p.row as usize] == UNMATCHED && !is_chosen(p.column));
+        !matters(pairs)
+    }
+
+    /// Numbers the members of the pairs. Columns with a partner have a number as well: they are not to be had.
+    fn number(&mut self, pairs: &[Valued], columns: usize, partners: &[u32]) {
+        refill(&mut self.number_of_column, columns, UNMATCHED);
+        partners.iter().filter(|c| **c != UNMATCHED).for_each(|c| self.number_of_column[*c as usize] = 0);
+        self.pairs.clear();
+        self.rows.clear();
+        self.columns.clear();
+        for p in pairs {
+            if self.rows.last() != Some(&p.row) {
+                self.rows.push(p.row);
+            }
+            let number = &mut self.number_of_column[p.column as usize];
+            if *number == UNMATCHED {
+                *number = self.columns.len() as u32;
+                self.columns.push(p.column);
+            }
+            self.pairs.push(Valued { row: self.rows.len() as u32 - 1, column: *number, ..*p });
+        }
     }
 
     /// Chooses pairs and strikes off until what is left passes the test. `bounds` are what a pair must outweigh one or both
     /// of whose members are chosen.
-    fn choose(
-        &mut self,
-        sizes: (usize, usize),
-        pairs: &[Overlap],
-        values: &[f64],
-        bounds: [f64; 2],
-        chosen: &mut Vec<u32>,
-    ) {
+    fn choose(&mut self, bounds: [f64; 2]) {
         self.edges.clear();
-        self.edges.extend(edges(pairs, values, |_, v| v - bounds[1]));
-        chosen.clear();
-        chosen.extend_from_slice(self.solver.solve(sizes.0, sizes.1, &self.edges, 0.0));
+        self.edges.extend(edges(&self.pairs, |p| p.value - bounds[1]));
+        let best = self.solver.solve(self.rows.len(), self.columns.len(), &self.edges, 0.0);
+        self.chosen.clear();
+        self.chosen.extend_from_slice(best);
         let mut tests = 0;
-        while !self.test(sizes, pairs, values, bounds, chosen) {
+        while !self.test(bounds) {
             tests += 1;
             if tests == MOST_TESTS {
-                refill(chosen, sizes.0, UNMATCHED);
+                self.chosen.fill(UNMATCHED);
             }
         }
     }
 
     /// Whether what was chosen is the only best matching; strikes off what is not in another one that is as good.
-    fn test(
-        &mut self,
-        (rows, columns): (usize, usize),
-        pairs: &[Overlap],
-        values: &[f64],
-        [one, both]: [f64; 2],
-        chosen: &mut [u32],
-    ) -> bool {
-        refill(&mut self.column_is_chosen, columns, false);
+    fn test(&mut self, [one, both]: [f64; 2]) -> bool {
+        let chosen = &mut self.chosen;
+        refill(&mut self.column_is_chosen, self.columns.len(), false);
         for column in chosen.iter().filter(|c| **c != UNMATCHED) {
             self.column_is_chosen[*column as usize] = true;
         }
-        let matched = |p: &Overlap| (chosen[p.row as usize] != UNMATCHED, self.column_is_chosen[p.column as usize]);
+        let matched = |p: &Valued| (chosen[p.row as usize] != UNMATCHED, self.column_is_chosen[p.column as usize]);
         self.edges.clear();
-        self.edges.extend(edges(pairs, values, |p, v| match matched(p) {
-            _ if chosen[p.row as usize] == p.column => v - both - CLEAR,
-            (true, true) => v - both,
+        self.edges.extend(edges(&self.pairs, |p| match matched(p) {
+            _ if chosen[p.row as usize] == p.column => p.value - both - CLEAR,
+            (true, true) => p.value - both,
             (false, false) => f64::NEG_INFINITY,
-            _ => v - one,
+            _ => p.value - one,
         }));
-        let best = self.solver.solve(rows, columns, &self.edges, 0.0);
-        let differs = best != chosen;
+        let best = self.solver.solve(self.rows.len(), self.columns.len(), &self.edges, 0.0);
+        let mut differs = false;
         for (chosen, _) in chosen.iter_mut().zip(best).filter(|(chosen, best)| chosen != best) {
             *chosen = UNMATCHED;
+            differs = true;
         }
         !differs
     }
 }
 
 /// The pairs with a gain.
-fn edges(pairs: &[Overlap], values: &[f64], gain: impl Fn(&Overlap, f64) -> f64) -> impl Iterator<Item = Edge> {
-    let priced = pairs.iter().zip(values).map(move |(p, v)| (p, gain(p, *v)));
+fn edges(pairs: &[Valued], gain: impl Fn(&Valued) -> f64) -> impl Iterator<Item = Edge> {
+    let priced = pairs.iter().map(move |p| (p, gain(p)));
     priced.filter(|(_, gain)| *gain > 0.0).map(|(p, gain)| Edge { row: p.row, column: p.column, cost: -gain })
 }

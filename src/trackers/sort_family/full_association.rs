@@ -3,15 +3,18 @@
 //! The optimum is that of the sum over *all* pairs, also those that overlap too little or not at all, with the whole
 //! smaller side assigned. Where the value of a pair is its IoU, pairs that do not overlap add nothing, so the best set
 //! of overlapping pairs is part of the optimum and the others need not be looked at. Where something is added to the
-//! IoU, [`FullAssociation::best_sum`] looks at the pairs that can matter: most follow from the overlaps alone
-//! ([`CertainPairs`]), and only if some do not are those left over compared ([`OpenPairs`]).
+//! IoU, [`FullAssociation::best_sum`] looks at the pairs that can matter: most follow from the overlaps alone,
+//! at once ([`DominantPairs`]) or by solving ([`CertainPairs`]), and only if some do not are those left over compared
+//! ([`OpenPairs`]).
 
 use crate::assignment::{Assignment, Edge, UNMATCHED, refill};
 use crate::geometry::Rect;
 use crate::trackers::overlaps::{Extent, Overlap, Overlaps, fill_edges};
 
 use super::certain_pairs::CertainPairs;
+use super::dominant_pairs::DominantPairs;
 use super::open_pairs::{MOST_EXTRA, OpenPairs};
+use super::valued::Valued;
 
 /// Whether there are too many pairs to look at them all.
 pub fn too_many(detections: usize, tracks: usize) -> bool {
@@ -22,7 +25,8 @@ pub fn too_many(detections: usize, tracks: usize) -> bool {
 pub struct Extra<B, R, L, P, A> {
     /// The addition, for a detection and a track.
     pub bonus: B,
-    /// What it grows with, for a detection over the tracks, and has the sign of: quicker to tell.
+    /// What it grows with, for a detection over the tracks, and has the sign of, if that exceeds a limit that is not
+    /// negative: quicker to tell.
     pub rank: R,
     /// Its largest amount over all tracks, for a detection.
     pub bound: L,
@@ -43,12 +47,12 @@ pub struct FullAssociation {
     /// For each detection and each track how many IoUs exceed the threshold.
     row_hits: Vec<u32>,
     column_hits: Vec<u32>,
-    /// The values of the pairs, and the pairs that go without saying.
-    values: Vec<f64>,
+    /// The pairs that do not go without saying.
+    rest: Vec<Valued>,
+    dominant: DominantPairs,
     certain: CertainPairs,
-    fixed: Vec<u32>,
-    touched: Vec<bool>,
     open: OpenPairs,
+    best: Vec<u32>,
     edges: Vec<Edge>,
     solver: Assignment,
     partners: Vec<u32>,
@@ -124,54 +128,43 @@ impl FullAssociation {
     /// Matches by the largest sum of IoUs.
     pub fn best_overlap(&mut self) {
         fill_edges(&mut self.edges, &self.pairs, |p| Some(-p.iou));
-        self.solver.solve(self.partners.len(), self.tracks, &self.edges, 0.0);
-        self.keep_overlapping();
+        let best = self.solver.solve(self.partners.len(), self.tracks, &self.edges, 0.0);
+        keep_overlapping(&self.pairs, self.threshold, best, &mut self.partners);
     }
 
     /// Matches by the largest sum of IoU and `bonus`.
     pub fn best_sum<B, R, L, P, A>(&mut self, extra: &Extra<B, R, L, P, A>)
     where
         B: Fn(u32, u32) -> f64,
-        R: Fn(u32, u32) -> f64,
+        R: Fn(u32, u32, f64) -> Option<f64>,
         L: Fn(u32) -> f64,
         P: Fn(u32) -> bool,
         A: Fn(u32, u32) -> bool,
     {
-        let rows = self.partners.len();
-        self.values.clear();
-        self.values.extend(self.pairs.iter().map(|p| p.iou + (extra.bonus)(p.row, p.column)));
-        let most = (0..rows as u32).map(&extra.bound).fold(0.0, f64::max);
-        let (sizes, threshold) = ((rows, self.tracks), self.threshold);
-        let (pairs, values) = (&self.pairs, &self.values);
-        refill(&mut self.touched, self.tracks, false);
-        pairs.iter().for_each(|p| self.touched[p.column as usize] = true);
-        let is_spare = |t: &u32| !self.touched[*t as usize] && (extra.is_plain)(*t);
-        let spare = (0..self.tracks as u32).filter(is_spare).count();
-        if !self.certain.find(sizes, pairs, values, most, spare, threshold, &mut self.fixed) {
+        let Self { rest, best, .. } = self;
+        let value = |p: &Overlap| p.iou + (extra.bonus)(p.row, p.column);
+        rest.clear();
+        rest.extend(self.pairs.iter().map(|p| Valued { row: p.row, column: p.column, iou: p.iou, value: value(p) }));
+        let most = (0..self.partners.len() as u32).map(&extra.bound).fold(0.0, f64::max);
+        refill(best, self.partners.len(), UNMATCHED);
+        self.dominant.take_from(rest, self.tracks, most, best);
+        if !self.certain.take_from(rest, self.tracks, most, &extra.is_plain, self.threshold, best) {
             let eager = |row: usize| self.row_hits[row] == 0;
-            self.open.solve(&self.pairs, &self.values, self.tracks, eager, extra, &mut self.fixed);
+            self.open.solve(rest, self.tracks, eager, extra, best);
         }
-        // The pairs that overlap too little are dropped.
-        for p in self.pairs.iter().filter(|p| p.iou >= self.threshold) {
-            if self.fixed[p.row as usize] == p.column {
-                self.partners[p.row as usize] = p.column;
-            }
-        }
+        keep_overlapping(&self.pairs, self.threshold, best, &mut self.partners);
     }
 
     /// For each detection its track or [`UNMATCHED`].
     pub fn partners(&self) -> &[u32] {
         &self.partners
     }
+}
 
-    /// Drops the pairs that overlap too little.
-    fn keep_overlapping(&mut self) {
-        let columns = self.solver.column_of_row();
-        for p in self.pairs.iter().filter(|p| p.iou >= self.threshold) {
-            if columns[p.row as usize] == p.column {
-                self.partners[p.row as usize] = p.column;
-            }
-        }
+/// Drops the pairs that overlap too little.
+fn keep_overlapping(pairs: &[Overlap], threshold: f64, best: &[u32], partners: &mut [u32]) {
+    for p in pairs.iter().filter(|p| p.iou >= threshold && best[p.row as usize] == p.column) {
+        partners[p.row as usize] = p.column;
     }
 }
 
@@ -259,7 +252,7 @@ mod tests {
             let bonus = |d: u32, t: u32| if is_plain(t) { 0.0 } else { raw[8 * d as usize + t as usize] };
             let mut association = FullAssociation::default();
             association.begin(boxes(&detections), boxes(&tracks), threshold, |_, _| true);
-            association.best_sum(&Extra { bonus, rank: bonus, bound: |_| 0.1, is_plain, allowed: |_, _| true });
+            association.best_sum(&Extra { bonus, rank: |d, t, limit| Some(bonus(d, t)).filter(|b| *b > limit), bound: |_| 0.1, is_plain, allowed: |_, _| true });
             let iou = |d: usize, t: usize| {
                 Rect::new(detections[d], 0.0, 10.0, 10.0).iou(&Rect::new(tracks[t], 0.0, 10.0, 10.0))
             };

@@ -2,9 +2,11 @@
 //! pairs from which those that overlap too little are dropped afterwards.
 
 mod certain_pairs;
+mod dominant_pairs;
 mod full_association;
 mod open_pairs;
 mod run;
+mod valued;
 
 pub use full_association::{Extra, FullAssociation, too_many};
 pub use run::Run;

@@ -2,9 +2,9 @@
 //! of them looked at as it takes to know that no other could matter.
 
 use crate::assignment::{Assignment, Edge, UNMATCHED, refill};
-use crate::trackers::overlaps::Overlap;
 
 use super::full_association::Extra;
+use super::valued::Valued;
 
 /// Price of leaving a detection out: more than any pair can be worth, so that the smaller side is assigned as a whole.
 const LEFT_OUT: f64 = 1e3;
@@ -14,7 +14,7 @@ const LEFT_OUT: f64 = 1e3;
 pub const MOST_EXTRA: usize = 1 << 22;
 
 /// Tracks that a detection is offered besides those it overlaps, before all are; in tests so few that they run out.
-const CHOICES: usize = if cfg!(test) { 2 } else { 8 };
+const CHOICES: usize = if cfg!(test) { 2 } else { 4 };
 
 /// What was looked at of a detection's pairs with tracks that it does not overlap.
 #[derive(Clone, Copy)]
@@ -47,19 +47,18 @@ pub struct OpenPairs {
 }
 
 impl OpenPairs {
-    /// Finds the partners of the detections that have none among so many `tracks`. `pairs` are those that overlap, sorted by
-    /// detection, `values` theirs; detections that are `eager` overlap no track well.
+    /// Finds the partners of the detections that have none among so many `tracks`. `pairs` are those that overlap and whose
+    /// members have no partners yet, sorted by detection; detections that are `eager` overlap no track well.
     pub fn solve<B, R, L, P, A>(
         &mut self,
-        pairs: &[Overlap],
-        values: &[f64],
+        pairs: &[Valued],
         tracks: usize,
         eager: impl Fn(usize) -> bool,
         extra: &Extra<B, R, L, P, A>,
         partners: &mut [u32],
     ) where
         B: Fn(u32, u32) -> f64,
-        R: Fn(u32, u32) -> f64,
+        R: Fn(u32, u32, f64) -> Option<f64>,
         L: Fn(u32) -> f64,
         P: Fn(u32) -> bool,
         A: Fn(u32, u32) -> bool,
@@ -75,7 +74,7 @@ impl OpenPairs {
             }
         }
         loop {
-            self.collect_edges(pairs, values, partners, left_out);
+            self.collect_edges(pairs, partners, left_out);
             self.solver.solve(partners.len(), tracks, &self.edges, left_out);
             // The solution is that of all pairs if the solver's prices leave no pair that was left out a gain, which a
             // detection's own price tells: those of the tracks are never positive.
@@ -96,19 +95,11 @@ impl OpenPairs {
 
     /// Lists the open tracks, and returns the price of leaving a detection out. Where the plain tracks that overlap no
     /// open detection would do for all detections, each can have one at a price of 0: they need not be listed.
-    fn list_open(
-        &mut self,
-        pairs: &[Overlap],
-        tracks: usize,
-        is_plain: &impl Fn(u32) -> bool,
-        partners: &[u32],
-    ) -> f64 {
+    fn list_open(&mut self, pairs: &[Valued], tracks: usize, is_plain: &impl Fn(u32) -> bool, partners: &[u32]) -> f64 {
         refill(&mut self.is_taken, tracks, false);
         partners.iter().filter(|c| **c != UNMATCHED).for_each(|c| self.is_taken[*c as usize] = true);
         refill(&mut self.is_touched, tracks, false);
-        for p in pairs.iter().filter(|p| partners[p.row as usize] == UNMATCHED) {
-            self.is_touched[p.column as usize] = true;
-        }
+        pairs.iter().for_each(|p| self.is_touched[p.column as usize] = true);
         let is_open = |c: &u32| !self.is_taken[*c as usize];
         self.plain.clear();
         self.plain.extend((0..tracks as u32).filter(|c| is_open(c) && is_plain(*c)));
@@ -124,7 +115,7 @@ impl OpenPairs {
     fn look_further<B, R, L, P, A>(&mut self, row: usize, extra: &Extra<B, R, L, P, A>, left_out: f64) -> bool
     where
         B: Fn(u32, u32) -> f64,
-        R: Fn(u32, u32) -> f64,
+        R: Fn(u32, u32, f64) -> Option<f64>,
         A: Fn(u32, u32) -> bool,
     {
         let start = self.list.len();
@@ -138,7 +129,7 @@ impl OpenPairs {
         let allowed = |c: u32| (extra.allowed)(detection, c);
         let mut rest = f64::NEG_INFINITY;
         if all {
-            let of_use = |c: u32| allowed(c) && (left_out > 0.0 || (extra.rank)(detection, c) > 0.0);
+            let of_use = |c: u32| allowed(c) && (left_out > 0.0 || (extra.rank)(detection, c, 0.0).is_some());
             let of_use = self.open.iter().filter(|c| of_use(**c));
             self.list.extend(of_use.map(|&c| (c, (extra.bonus)(detection, c))));
         } else {
@@ -146,8 +137,7 @@ impl OpenPairs {
             // What a newcomer has to beat.
             let mut least = 0.0;
             for &column in &self.open {
-                let rank = (extra.rank)(detection, column);
-                if rank > least && allowed(column) {
+                if let Some(rank) = (extra.rank)(detection, column, least).filter(|_| allowed(column)) {
                     if self.best.len() == CHOICES {
                         self.best.pop();
                     }
@@ -169,17 +159,12 @@ impl OpenPairs {
     }
 
     /// The pairs of the open detections with open tracks: those that overlap, and those that were looked at.
-    fn collect_edges(&mut self, pairs: &[Overlap], values: &[f64], partners: &[u32], left_out: f64) {
+    fn collect_edges(&mut self, pairs: &[Valued], partners: &[u32], left_out: f64) {
         self.edges.clear();
-        let mut pairs = pairs.iter().zip(values).peekable();
-        for row in 0..partners.len() as u32 {
-            let of_row = std::iter::from_fn(|| pairs.next_if(|(p, _)| p.row == row));
-            if partners[row as usize] != UNMATCHED {
-                of_row.for_each(drop);
-                continue;
-            }
-            let overlapping = of_row.filter(|(p, _)| !self.is_taken[p.column as usize]);
-            let mut overlapping = overlapping.map(|(p, v)| Edge { row, column: p.column, cost: -v }).peekable();
+        let mut pairs = pairs.iter().peekable();
+        for row in (0..partners.len() as u32).filter(|row| partners[*row as usize] == UNMATCHED) {
+            let overlapping = std::iter::from_fn(|| pairs.next_if(|p| p.row == row));
+            let mut overlapping = overlapping.map(|p| Edge { row, column: p.column, cost: -p.value }).peekable();
             let choices = self.choices[row as usize];
             for &(column, bonus) in &self.list[choices.start as usize..choices.end as usize] {
                 while let Some(edge) = overlapping.next_if(|e| e.column < column) {
