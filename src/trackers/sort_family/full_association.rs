@@ -149,7 +149,7 @@ impl FullAssociation {
         refill(best, self.partners.len(), UNMATCHED);
         self.dominant.take_from(rest, self.tracks, most, best);
         if !self.certain.take_from(rest, self.tracks, most, &extra.is_plain, self.threshold, best) {
-            let eager = |row: usize| self.row_hits[row] == 0;
+            let eager = |row: u32| self.row_hits[row as usize] == 0;
             self.open.solve(rest, self.tracks, eager, extra, best);
         }
         keep_overlapping(&self.pairs, self.threshold, best, &mut self.partners);

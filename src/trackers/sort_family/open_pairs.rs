@@ -29,14 +29,14 @@ struct Choices {
 /// The search, with buffers that are reused from call to call.
 #[derive(Default)]
 pub struct OpenPairs {
-    /// Tracks with a certain pair.
-    is_taken: Vec<bool>,
-    /// Tracks that overlap an open detection.
-    is_touched: Vec<bool>,
-    /// The tracks whose pair is not certain, but for those that stand for any other.
-    open: Vec<u32>,
-    plain: Vec<u32>,
+    /// The detections without partners, and what was looked at of theirs.
+    rows: Vec<u32>,
     choices: Vec<Choices>,
+    /// The tracks without partners, but for those that stand for any other, and their number among them.
+    columns: Vec<u32>,
+    number_of: Vec<u32>,
+    /// Numbers of those that more is to be known of than the pairs that overlap.
+    open: Vec<u32>,
     /// Tracks by ascending number, and what is added for the pair.
     list: Vec<(u32, f64)>,
     /// Pairs looked at so far.
@@ -53,7 +53,7 @@ impl OpenPairs {
         &mut self,
         pairs: &[Valued],
         tracks: usize,
-        eager: impl Fn(usize) -> bool,
+        eager: impl Fn(u32) -> bool,
         extra: &Extra<B, R, L, P, A>,
         partners: &mut [u32],
     ) where
@@ -63,56 +63,75 @@ impl OpenPairs {
         P: Fn(u32) -> bool,
         A: Fn(u32, u32) -> bool,
     {
-        let left_out = self.list_open(pairs, tracks, &extra.is_plain, partners);
+        self.rows.clear();
+        self.rows.extend((0..).zip(partners.iter()).filter(|(_, partner)| **partner == UNMATCHED).map(|(row, _)| row));
+        let left_out = self.list_columns(pairs, tracks, &extra.is_plain, partners);
         self.list.clear();
         self.looked = 0;
         self.choices.clear();
-        for (row, partner) in partners.iter().enumerate() {
-            self.choices.push(Choices { start: 0, end: 0, rest: (extra.bound)(row as u32) });
-            if *partner == UNMATCHED && eager(row) {
-                self.look_further(row, extra, left_out);
+        for number in 0..self.rows.len() {
+            let row = self.rows[number];
+            self.choices.push(Choices { start: 0, end: 0, rest: (extra.bound)(row) });
+            if eager(row) {
+                self.look_further(number, extra, left_out);
             }
         }
         loop {
-            self.collect_edges(pairs, partners, left_out);
-            self.solver.solve(partners.len(), tracks, &self.edges, left_out);
+            self.collect_edges(pairs, left_out);
+            self.solver.solve(self.rows.len(), self.columns.len(), &self.edges, left_out);
             // The solution is that of all pairs if the solver's prices leave no pair that was left out a gain, which a
             // detection's own price tells: those of the tracks are never positive.
             let mut is_best = true;
-            for (row, _) in partners.iter().enumerate().filter(|(_, partner)| **partner == UNMATCHED) {
-                if self.solver.row_potential()[row] > -self.choices[row].rest {
-                    is_best &= !self.look_further(row, extra, left_out);
+            for number in 0..self.rows.len() {
+                if self.solver.row_potential()[number] > -self.choices[number].rest {
+                    is_best &= !self.look_further(number, extra, left_out);
                 }
             }
             if is_best {
                 break;
             }
         }
-        for (partner, column) in partners.iter_mut().zip(self.solver.column_of_row()) {
-            *partner = (*partner).min(*column);
+        for (row, number) in self.rows.iter().zip(self.solver.column_of_row()).filter(|(_, n)| **n != UNMATCHED) {
+            partners[*row as usize] = self.columns[*number as usize];
         }
     }
 
-    /// Lists the open tracks, and returns the price of leaving a detection out. Where the plain tracks that overlap no
-    /// open detection would do for all detections, each can have one at a price of 0: they need not be listed.
-    fn list_open(&mut self, pairs: &[Valued], tracks: usize, is_plain: &impl Fn(u32) -> bool, partners: &[u32]) -> f64 {
-        refill(&mut self.is_taken, tracks, false);
-        partners.iter().filter(|c| **c != UNMATCHED).for_each(|c| self.is_taken[*c as usize] = true);
-        refill(&mut self.is_touched, tracks, false);
-        pairs.iter().for_each(|p| self.is_touched[p.column as usize] = true);
-        let is_open = |c: &u32| !self.is_taken[*c as usize];
-        self.plain.clear();
-        self.plain.extend((0..tracks as u32).filter(|c| is_open(c) && is_plain(*c)));
-        let free = self.plain.iter().filter(|c| !self.is_touched[**c as usize]).count();
-        let enough = free >= partners.iter().filter(|c| **c == UNMATCHED).count();
+    /// Lists the tracks, and returns the price of leaving a detection out. Where the plain tracks that overlap no detection
+    /// would do for all of these, each can have one at a price of 0: they need not be listed.
+    fn list_columns(
+        &mut self,
+        pairs: &[Valued],
+        tracks: usize,
+        is_plain: &impl Fn(u32) -> bool,
+        partners: &[u32],
+    ) -> f64 {
+        const TAKEN: u32 = UNMATCHED - 1;
+        const TOUCHED: u32 = 0;
+        refill(&mut self.number_of, tracks, UNMATCHED);
+        partners.iter().filter(|c| **c != UNMATCHED).for_each(|c| self.number_of[*c as usize] = TAKEN);
+        pairs.iter().for_each(|p| self.number_of[p.column as usize] = TOUCHED);
+        let is_spare = |(column, number): (u32, &u32)| *number == UNMATCHED && is_plain(column);
+        let spare = (0..).zip(&self.number_of).filter(|c| is_spare(*c)).count();
+        let enough = spare >= self.rows.len();
+        self.columns.clear();
         self.open.clear();
-        self.open.extend((0..tracks as u32).filter(|c| is_open(c) && !(enough && is_plain(*c))));
+        for (column, number) in (0..).zip(&mut self.number_of).filter(|(_, number)| **number != TAKEN) {
+            let stands_for_any = enough && is_plain(column);
+            if stands_for_any && *number == UNMATCHED {
+                continue;
+            }
+            *number = self.columns.len() as u32;
+            self.columns.push(column);
+            if !stands_for_any {
+                self.open.push(*number);
+            }
+        }
         if enough { 0.0 } else { LEFT_OUT }
     }
 
     /// Looks at a detection's best choices, or, if these were seen, at all open tracks, as far as there is room; false if
     /// there is none. Where it can be left out at no price, only gains are of interest.
-    fn look_further<B, R, L, P, A>(&mut self, row: usize, extra: &Extra<B, R, L, P, A>, left_out: f64) -> bool
+    fn look_further<B, R, L, P, A>(&mut self, number: usize, extra: &Extra<B, R, L, P, A>, left_out: f64) -> bool
     where
         B: Fn(u32, u32) -> f64,
         R: Fn(u32, u32, f64) -> Option<f64>,
@@ -123,49 +142,51 @@ impl OpenPairs {
         if self.looked > MOST_EXTRA {
             return false;
         }
-        let seen = self.choices[row];
+        let seen = self.choices[number];
         let all = left_out > 0.0 || seen.start < seen.end;
-        let detection = row as u32;
-        let allowed = |c: u32| (extra.allowed)(detection, c);
+        let (row, columns) = (self.rows[number], &self.columns);
+        let column = |number: u32| columns[number as usize];
+        let allowed = |c: u32| (extra.allowed)(row, column(c));
+        let bonus = |c: u32| (extra.bonus)(row, column(c));
+        let rank = |c: u32, limit: f64| (extra.rank)(row, column(c), limit);
         let mut rest = f64::NEG_INFINITY;
         if all {
-            let of_use = |c: u32| allowed(c) && (left_out > 0.0 || (extra.rank)(detection, c, 0.0).is_some());
-            let of_use = self.open.iter().filter(|c| of_use(**c));
-            self.list.extend(of_use.map(|&c| (c, (extra.bonus)(detection, c))));
+            let of_use = |c: u32| allowed(c) && (left_out > 0.0 || rank(c, 0.0).is_some());
+            self.list.extend(self.open.iter().filter(|c| of_use(**c)).map(|&c| (c, bonus(c))));
         } else {
             self.best.clear();
             // What a newcomer has to beat.
             let mut least = 0.0;
-            for &column in &self.open {
-                if let Some(rank) = (extra.rank)(detection, column, least).filter(|_| allowed(column)) {
+            for &c in &self.open {
+                if let Some(rank) = rank(c, least).filter(|_| allowed(c)) {
                     if self.best.len() == CHOICES {
                         self.best.pop();
                     }
                     let at = self.best.partition_point(|(better, _)| *better >= rank);
-                    self.best.insert(at, (rank, column));
+                    self.best.insert(at, (rank, c));
                     if self.best.len() == CHOICES {
                         least = self.best[CHOICES - 1].0;
                     }
                 }
             }
             if self.best.len() == CHOICES {
-                rest = (extra.bonus)(detection, self.best[CHOICES - 1].1);
+                rest = bonus(self.best[CHOICES - 1].1);
             }
-            self.best.sort_unstable_by_key(|(_, column)| *column);
-            self.list.extend(self.best.iter().map(|&(_, c)| (c, (extra.bonus)(detection, c))));
+            self.best.sort_unstable_by_key(|(_, c)| *c);
+            self.list.extend(self.best.iter().map(|&(_, c)| (c, bonus(c))));
         }
-        self.choices[row] = Choices { start: start as u32, end: self.list.len() as u32, rest };
+        self.choices[number] = Choices { start: start as u32, end: self.list.len() as u32, rest };
         true
     }
 
-    /// The pairs of the open detections with open tracks: those that overlap, and those that were looked at.
-    fn collect_edges(&mut self, pairs: &[Valued], partners: &[u32], left_out: f64) {
+    /// The pairs that overlap, and those that were looked at.
+    fn collect_edges(&mut self, pairs: &[Valued], left_out: f64) {
         self.edges.clear();
         let mut pairs = pairs.iter().peekable();
-        for row in (0..partners.len() as u32).filter(|row| partners[*row as usize] == UNMATCHED) {
-            let overlapping = std::iter::from_fn(|| pairs.next_if(|p| p.row == row));
-            let mut overlapping = overlapping.map(|p| Edge { row, column: p.column, cost: -p.value }).peekable();
-            let choices = self.choices[row as usize];
+        for (row, (original, choices)) in (0..).zip(self.rows.iter().zip(&self.choices)) {
+            let overlapping = std::iter::from_fn(|| pairs.next_if(|p| p.row == *original));
+            let edge = |p: &Valued| Edge { row, column: self.number_of[p.column as usize], cost: -p.value };
+            let mut overlapping = overlapping.map(edge).peekable();
             for &(column, bonus) in &self.list[choices.start as usize..choices.end as usize] {
                 while let Some(edge) = overlapping.next_if(|e| e.column < column) {
                     self.edges.push(edge);
