@@ -3,6 +3,9 @@
 BUILD := build
 PREFIX ?= /usr/local
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
+# Read by ctest and by cmake --build, here and in tools/.
+export CTEST_PARALLEL_LEVEL ?= $(JOBS)
+export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
 
 # Measurement data next to the checkout, if there is any; tests that need it say so when they skip.
 ifeq ($(origin GENTRACK2_SHARED),undefined)
@@ -50,7 +53,7 @@ help:
 build:
 	@tools/install-needs.sh build
 	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release
-	@cmake --build $(BUILD) --parallel $(JOBS) $(if $(TARGET),--target $(TARGET))
+	@cmake --build $(BUILD) $(if $(TARGET),--target $(TARGET))
 
 # A configuration of its own, which needs neither OpenCV nor C++ programs; cargo's results are shared.
 install:

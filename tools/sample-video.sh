@@ -36,6 +36,6 @@ fi
 dpkg-deb -x "$scratch"/opencv-doc_*.deb "$scratch/files"
 # Some versions ship it compressed.
 if [ -s "$scratch/files/$inside.gz" ]; then gunzip "$scratch/files/$inside.gz"; fi
-cp "$scratch/files/$inside" "$copy.part"
-mv "$copy.part" "$copy"
+cp "$scratch/files/$inside" "$copy.$$"
+mv "$copy.$$" "$copy"
 printf '%s\n' "$copy"
