@@ -8,7 +8,8 @@ use gentrack2::capi::*;
 
 use super::bytes::Bytes;
 
-const ALGORITHMS: [&CStr; 9] =
+/// The trackers, and a name that is none.
+pub const ALGORITHMS: [&CStr; 9] =
     [c"gentrack2", c"sort", c"deepsort", c"bytetrack", c"ocsort", c"botsort", c"smiletrack", c"conftrack", c"none"];
 const VALUES: [&CStr; 16] = [
     c"0",
@@ -45,7 +46,7 @@ const KEYS: [&CStr; 10] = [
 const PIXELS: usize = 1 << 16;
 
 /// Runs the calls that the bytes say. The contract of the header is kept: pointers are live or NULL.
-pub fn run(data: &[u8]) {
+pub fn run(data: &[u8]) -> Accepted {
     let mut caller = Caller::new(data);
     // So many that long inputs are not slow inputs.
     for _ in 0..96 {
@@ -54,6 +55,19 @@ pub fn run(data: &[u8]) {
         }
         caller.call();
     }
+    caller.accepted
+}
+
+/// How many frames were accepted that had this, and how many snapshots: what is refused gets nowhere.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Accepted {
+    pub detections: usize,
+    pub embeddings: usize,
+    pub images: usize,
+    pub camera_motions: usize,
+    pub timestamps: usize,
+    pub rests: usize,
+    pub snapshots: usize,
 }
 
 struct Caller<'a> {
@@ -64,6 +78,7 @@ struct Caller<'a> {
     ended: [BTreeSet<u64>; 2],
     time: i64,
     pixels: Vec<u8>,
+    accepted: Accepted,
 }
 
 impl Drop for Caller<'_> {
@@ -85,6 +100,7 @@ impl<'a> Caller<'a> {
             ended: Default::default(),
             time: 0,
             pixels: (0..PIXELS).map(|i| (i * 31 % 251) as u8).collect(),
+            accepted: Accepted::default(),
         }
     }
 
@@ -179,6 +195,44 @@ impl<'a> Caller<'a> {
                 gt2_config_free(copy);
             }
         }
+        for index in 0..capacity {
+            self.read_parameter(config, index, capacity);
+        }
+
+        // SAFETY: a live handle or NULL; the count of NULL is 0.
+        unsafe {
+            assert_eq!(text(gt2_config_algorithm(config)).is_some(), !config.is_null());
+            let presets = gt2_config_preset_count(config);
+            assert!((0..presets).all(|index| text(gt2_config_preset_name(config, index)).is_some()));
+            assert!(gt2_config_preset_name(config, presets + capacity).is_null());
+        }
+    }
+
+    /// What a parameter is set to is told in every form, and reads back from its text.
+    fn read_parameter(&self, config: *mut gt2_config, index: usize, capacity: usize) {
+        // SAFETY: all zero is a legal output struct.
+        let mut info: gt2_parameter_info = unsafe { std::mem::zeroed() };
+        let mut buffer = [0 as c_char; 256];
+        let (mut needed, mut number, mut integer) = (0, 0.0, 0);
+        // SAFETY: a live handle or NULL, live outputs, and buffers of the sizes given.
+        unsafe {
+            if !check(gt2_config_parameter_info(config, index, &mut info)) {
+                return;
+            }
+            check(gt2_config_get(config, info.key, buffer.as_mut_ptr(), capacity, &mut needed));
+            if check(gt2_config_get_number(config, info.key, &mut number)) {
+                assert!((info.minimum..=info.maximum.max(1.0)).contains(&number));
+            }
+            if check(gt2_config_get_integer(config, info.key, &mut integer)) {
+                assert!(info.kind == GT2_PARAMETER_INTEGER || info.kind == GT2_PARAMETER_BOOLEAN);
+            }
+            if check(gt2_config_get(config, info.key, buffer.as_mut_ptr(), buffer.len(), null_mut())) {
+                let read = text(buffer.as_ptr());
+                assert_eq!(gt2_config_set(config, info.key, buffer.as_ptr()), GT2_OK, "{read:?}");
+                assert_eq!(gt2_config_get(config, info.key, buffer.as_mut_ptr(), buffer.len(), null_mut()), GT2_OK);
+                assert_eq!(text(buffer.as_ptr()), read);
+            }
+        }
     }
 
     fn new_tracker(&mut self, which: usize) {
@@ -226,6 +280,7 @@ impl<'a> Caller<'a> {
             }
         }
         if !loaded.is_null() {
+            self.accepted.snapshots += 1;
             let ended = std::mem::take(&mut self.ended[which]);
             self.replace(which, loaded);
             self.ended[which] = ended;
@@ -248,6 +303,14 @@ impl<'a> Caller<'a> {
             check(gt2_tracker_copy_tracks(tracker, kind, buffer.as_mut_ptr(), element, capacity, &mut needed));
             check(gt2_tracker_particles(tracker, id, &mut particles));
             check(gt2_tracker_neighbourhood(tracker, id, &mut around));
+            assert_eq!(text(gt2_tracker_algorithm(tracker)).is_some(), !tracker.is_null());
+        }
+        // What needs no handle.
+        let algorithms = gt2_algorithm_count();
+        let named = capacity + id as usize;
+        for found in [gt2_algorithm_name(named), gt2_algorithm_description(named)] {
+            // SAFETY: static texts or NULL.
+            assert_eq!(unsafe { text(found) }.is_some(), named < algorithms);
         }
     }
 
@@ -258,8 +321,14 @@ impl<'a> Caller<'a> {
             false => self.bytes.below(6),
         };
         let detections: Vec<gt2_detection> = (0..count).map(|_| self.detection()).collect();
-        let dimension = *self.bytes.pick(&[0, 0, 4, 4, 4, 1, 7]);
-        let embeddings: Vec<f32> = (0..count * dimension).map(|_| self.bytes.number(1.0) as f32).collect();
+        let dimension: usize = *self.bytes.pick(&[0, 0, 4, 4, 4, 1, 7]);
+        // Rows of their own length, packed, with room between them, and too short ones.
+        let stride = [dimension, dimension, dimension + 3, dimension.saturating_sub(1)][count % 4];
+        let room = stride.max(dimension);
+        let mut embeddings = vec![f32::NAN; count * room];
+        for row in embeddings.chunks_exact_mut(room.max(1)) {
+            row[..dimension].fill_with(|| self.bytes.number(1.0) as f32);
+        }
         let image = self.image();
         let motion = self.camera_motion();
         // SAFETY: all zero is a legal frame.
@@ -269,6 +338,8 @@ impl<'a> Caller<'a> {
         frame.detection_stride = *self.bytes.pick(&[0, size_of::<gt2_detection>(), 8]);
         frame.embeddings = if dimension == 0 { null() } else { embeddings.as_ptr() };
         frame.embedding_dimension = dimension;
+        frame.embedding_stride = if count % 8 == 1 { 0 } else { stride };
+        frame.struct_size = if count % 3 == 0 { 0 } else { size_of::<gt2_frame>() };
         frame.image = image.as_ref().map_or(null(), |i| i);
         frame.camera_motion = motion.as_ref().map_or(null(), |m| m.as_ptr());
         (frame.image_width, frame.image_height) = *self.bytes.pick(&[(0, 0), (640, 480), (64, 48), (0, 9)]);
@@ -281,10 +352,21 @@ impl<'a> Caller<'a> {
         let Some(before) = before else { return };
         let after = self.results(tracker);
         if done {
+            self.count(&frame);
             self.examine(which, &after, count);
         } else {
             assert!(same_bits(&before, &after), "a refused frame changes nothing");
         }
+    }
+
+    fn count(&mut self, frame: &gt2_frame) {
+        let accepted = &mut self.accepted;
+        accepted.detections += usize::from(frame.detection_count > 0);
+        accepted.embeddings += usize::from(frame.detection_count > 0 && !frame.embeddings.is_null());
+        accepted.images += usize::from(!frame.image.is_null());
+        accepted.camera_motions += usize::from(!frame.camera_motion.is_null());
+        accepted.timestamps += usize::from(frame.has_timestamp == 1);
+        accepted.rests += usize::from(frame.detector_skipped == 1);
     }
 
     fn detection(&mut self) -> gt2_detection {
@@ -396,11 +478,22 @@ fn ids(tracker: *const gt2_tracker, list: ListIds) -> Vec<u64> {
     }
 }
 
+/// A text of the library's, `None` for NULL.
+///
+/// # Safety
+/// It ends with a NUL.
+unsafe fn text<'a>(found: *const c_char) -> Option<&'a str> {
+    // SAFETY: not NULL, and the caller's promise.
+    (!found.is_null()).then(|| unsafe { CStr::from_ptr(found) }.to_str().expect("texts are UTF-8"))
+}
+
 /// Whether a call succeeded. If it did not, it says why, and it is not for a bug.
 fn check(status: gt2_status) -> bool {
     if status == GT2_OK {
         return true;
     }
+    // SAFETY: statuses have static names.
+    assert!(unsafe { text(gt2_status_str(status)) }.is_some_and(|name| name != "unknown status"), "{status}");
     // SAFETY: the text is valid until the next failing call.
     let message = unsafe { CStr::from_ptr(gt2_last_error_message()) }.to_str().expect("messages are UTF-8");
     assert!(status != GT2_ERR_PANIC && status != GT2_ERR_POISONED, "{message}");

@@ -2,7 +2,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use gentrack2::{Algorithm, Config, Detection, Frame, Tracker};
+use gentrack2::{Algorithm, CameraMotion, Config, Detection, Embeddings, Frame, ImageView, PixelFormat, Tracker};
 
 use super::bytes::Bytes;
 
@@ -37,7 +37,18 @@ fn played(bytes: &mut Bytes) -> Tracker {
     config.set_text("class_policy", policy).expect("these exist");
     let mut tracker = Tracker::new(&config).expect("defaults are fine");
     for _ in 0..bytes.below(6) {
-        tracker.step(&frame(&detections(bytes))).expect("these are good detections");
+        // With all there is to remember: a row of numbers per detection, and a picture.
+        let detections = detections(bytes);
+        let numbers: Vec<f32> =
+            detections.iter().flat_map(|d| [d.rect.left as f32, d.rect.top as f32, 100.0]).collect();
+        let pixels: Vec<u8> = (0..640 * 480).map(|i| (i / 7 % 251) as u8).collect();
+        let everything = Frame {
+            embeddings: Some(Embeddings::new(&numbers, 3)),
+            image: Some(ImageView::new(&pixels, 640, 480, 0, PixelFormat::Gray8).expect("it is of this size")),
+            camera_motion: Some(CameraMotion([1.0, 0.0, 0.5, 0.0, 1.0, -0.5])),
+            ..frame(&detections)
+        };
+        tracker.step(&everything).expect("these are good frames");
     }
     tracker
 }

@@ -3,4 +3,6 @@
 #[path = "../drive/mod.rs"]
 mod drive;
 
-libfuzzer_sys::fuzz_target!(|data: &[u8]| drive::c_abi::run(data));
+libfuzzer_sys::fuzz_target!(|data: &[u8]| {
+    drive::c_abi::run(data);
+});
