@@ -6,7 +6,7 @@ mod simulator;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use gentrack2::{Algorithm, Detection, Embeddings, Error, Frame, ImageView, PixelFormat, Tracker};
+use gentrack2::{Algorithm, CameraMotion, Detection, Embeddings, Error, Frame, ImageView, PixelFormat, Tracker};
 use simulator::driver::{exact, tracker_of};
 use simulator::everyone::CLASS_POLICIES;
 use simulator::noise::Noise;
@@ -143,7 +143,8 @@ for_every_algorithm! {
     }
 }
 
-/// Snapshots of every format that was ever written, by algorithm: `tests/fixtures/snapshots/FORMAT/ALGORITHM`.
+/// Snapshots of every format that was ever written, by algorithm: `tests/fixtures/snapshots/FORMAT/ALGORITHM`,
+/// and with all that a frame can have, classes apart, `ALGORITHM-everything`.
 fn fixtures() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/snapshots")
 }
@@ -152,26 +153,43 @@ fn fixtures() -> PathBuf {
 const SEEN: usize = 20;
 
 /// What they have seen: six walkers apart from each other.
-fn walk(tracker: &mut Tracker, frames: std::ops::Range<usize>) {
+fn walk(tracker: &mut Tracker, frames: std::ops::Range<usize>, everything: bool) {
+    const SIZE: (u32, u32) = (400, 920);
+    let pixels: Vec<u8> = (0..(SIZE.0 * SIZE.1) as usize).map(|i| (i / 3 % 251) as u8).collect();
+    let numbers: Vec<f32> = (0..6 * 6).map(|i| if i % 7 == 0 { 1.0 } else { 0.0 }).collect();
     for frame in frames {
         let walker = |i: usize| Detection::new(50.0 + 3.0 * frame as f64, 20.0 + 150.0 * i as f64, 40.0, 100.0, 0.9);
-        let detections: Vec<Detection> = (0..6).map(walker).collect();
-        tracker.step(&Frame::new(&detections)).unwrap();
+        let mut detections: Vec<Detection> = (0..6).map(walker).collect();
+        if everything {
+            (0..).zip(&mut detections).for_each(|(i, d)| (d.class_id, d.tag) = (i % 2, 7 * i as u64));
+        }
+        let plain = Frame::new(&detections);
+        let full = Frame {
+            image: Some(ImageView::new(&pixels, SIZE.0, SIZE.1, 0, PixelFormat::Gray8).unwrap()),
+            embeddings: Some(Embeddings::new(&numbers, 6)),
+            camera_motion: Some(CameraMotion([1.0, 0.0, 0.0, 0.0, 1.0, 0.0])),
+            timestamp_ns: Some(33_333_333 * frame as i64),
+            ..plain
+        };
+        tracker.step(if everything { &full } else { &plain }).unwrap();
     }
 }
+
+const FIXTURES: [(&str, bool); 2] = [("", false), ("-everything", true)];
 
 for_every_algorithm! {
     fn snapshots_of_every_format_are_read(algorithm: Algorithm) {
         let mut formats = 0;
-        for folder in std::fs::read_dir(fixtures()).unwrap() {
-            let path = folder.unwrap().path().join(algorithm.name());
+        let folders = std::fs::read_dir(fixtures()).unwrap().map(|folder| folder.unwrap().path());
+        for (folder, (suffix, everything)) in folders.flat_map(|folder| FIXTURES.map(|kind| (folder.clone(), kind))) {
+            let path = folder.join(format!("{}{suffix}", algorithm.name()));
             let mut tracker = Tracker::load(&std::fs::read(&path).unwrap()).unwrap();
             assert_eq!(tracker.algorithm(), algorithm);
             let ids = |tracker: &Tracker| tracker.output().reported.iter().map(|t| t.id).collect::<BTreeSet<u64>>();
             let before = ids(&tracker);
             assert_eq!(before.len(), 6, "{}: there are {before:?}", path.display());
             // Whatever else has changed since, whoever was there is still known.
-            walk(&mut tracker, SEEN..SEEN + 3);
+            walk(&mut tracker, SEEN..SEEN + 3, everything);
             assert_eq!(ids(&tracker), before);
             formats += 1;
         }
@@ -183,13 +201,14 @@ for_every_algorithm! {
 #[test]
 #[ignore = "writes files"]
 fn write_fixtures() {
-    for algorithm in Algorithm::ALL {
-        let mut tracker = tracker_of(*algorithm, &[("seed", "7")]);
-        walk(&mut tracker, 0..SEEN);
+    for (algorithm, (suffix, everything)) in Algorithm::ALL.iter().flat_map(|a| FIXTURES.map(|kind| (a, kind))) {
+        let settings = [("seed", "7"), ("class_policy", "separate")];
+        let mut tracker = tracker_of(*algorithm, &settings[..if everything { 2 } else { 1 }]);
+        walk(&mut tracker, 0..SEEN, everything);
         let bytes = tracker.save();
         let format = u32::from_le_bytes(bytes[8..12].try_into().unwrap());
         let folder = fixtures().join(format.to_string());
         std::fs::create_dir_all(&folder).unwrap();
-        std::fs::write(folder.join(algorithm.name()), bytes).unwrap();
+        std::fs::write(folder.join(format!("{}{suffix}", algorithm.name())), bytes).unwrap();
     }
 }
