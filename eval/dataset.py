@@ -22,8 +22,8 @@ MOTIONS = ("gmc.txt", "gmc/gmc.txt")
 EMBEDDINGS = "embeddings.f32"
 # MOT17 has each of its videos once per public detector; the last of these finds most.
 PUBLIC_DETECTORS = ("-DPM", "-FRCNN", "-SDP")
-# The classes that the judge of MOTChallenge knows.
-KNOWN_CLASSES = range(1, 14)
+# The judge makes a list of all numbers up to the largest identity.
+LARGEST_IDENTITY = 10_000_000
 
 
 class Unusable(Exception):
@@ -71,12 +71,14 @@ def read_info(path):
     """Frames, size and frame rate that a seqinfo.ini tells, and the name of the directory of images."""
     info = configparser.ConfigParser(interpolation=None)
     try:
-        info.read(path)
+        info.read(path, encoding="utf-8-sig")
         info = info["Sequence"]
         return {"frames": int(info["seqLength"]), "size": f"{int(info['imWidth'])}x{int(info['imHeight'])}",
                 "fps": float(info["frameRate"])}, info.get("imDir", "img1")
     except KeyError as error:
         raise Unusable(f"{path}: {error.args[0]} is missing") from None
+    except UnicodeDecodeError:
+        raise Unusable(f"{path}: is no text file") from None
     except (configparser.Error, ValueError) as error:
         raise Unusable(f"{path}: {' '.join(str(error).split())}") from None
 
@@ -334,6 +336,8 @@ def check_truth(path):
     """Last frame and the corner that holds all boxes."""
     seen, last, corner = {}, 0, (1.0, 1.0)
     for number, values, fields in rows.checked(path, rows.BOX):
+        if values[1] != int(values[1]) or not 0 <= values[1] <= LARGEST_IDENTITY:
+            raise rows.Malformed(f"{path}:{number}: id \"{fields[1]}\" is not a whole number in 0..{LARGEST_IDENTITY}")
         at = int(values[0]), int(values[1])
         if at in seen:
             raise rows.Malformed(f"{path}:{number}: identity {at[1]} is in frame {at[0]} already, by line {seen[at]}")

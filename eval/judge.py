@@ -87,7 +87,7 @@ def prepare(path, rules, directory):
         store.write(out, "".join(",".join([str(rows.frame_of(row) - skipped), *row[1:]]) + "\n" for row in kept if row))
     prepared = Truth(out, skipped, frames - skipped)
     with open(out) as file:
-        return prepared if any(row[6] != "0" and row[7] == "1" for row in map(rows.split, file)) else None
+        return prepared if any(row[6] != "0" and float(row[7]) == 1 for row in map(rows.split, file)) else None
 
 
 @functools.lru_cache(maxsize=None)

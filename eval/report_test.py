@@ -142,6 +142,28 @@ class Report(unittest.TestCase):
         rows.write_rows(path, [[*row[:6], str(50 * float(row[6])), *row[7:]] for row in rows.read_rows(path)])
         self.assertIn("scores are not in 0..1, so they are squashed", self.only_sort(folder, "--set", "min_score=0.1"))
 
+    def test_numbers_and_files_as_other_programs_write_them(self):
+        folder, sequence = self.one()
+        usual = self.scores(folder)
+        path = f"{sequence}/gt/gt.txt"
+        written = rows.read_rows(path)
+        for columns in (lambda row: [f"{float(each)}" for each in row], lambda row: [f" {each}" for each in row]):
+            rows.write_rows(path, [columns(row) for row in written])
+            self.assertEqual(self.scores(folder), usual)
+        for name in ("gt/gt.txt", "det/det.txt", "seqinfo.ini"):
+            with open(f"{sequence}/{name}", "rb") as file:
+                content = file.read()
+            with open(f"{sequence}/{name}", "wb") as file:
+                file.write(b"\xef\xbb\xbf" + content.replace(b"\n", b"\r\n"))
+        self.assertEqual(self.scores(folder), usual)
+
+    def scores(self, folder):
+        """All scores of sort."""
+        self.only_sort(folder, "--json", f"{self.root}/one.json")
+        with open(f"{self.root}/one.json") as file:
+            result, = json.load(file).values()
+        return result["sort"]["runs"]
+
     def test_own_detections_in_a_folder(self):
         folder, sequence = self.one()
         os.mkdir(f"{folder}/mine")
@@ -182,6 +204,9 @@ class Report(unittest.TestCase):
                 "gt/gt.txt:2: expected frame,id,left,top,width,height,..., found 3 fields: 1,2,3",
             ),
             ("gt/gt.txt", 2, None, "is in frame 1 already, by line 1"),
+            ("gt/gt.txt", 3, "1,-1,3,4,5,6,1,1,1", 'gt/gt.txt:3: id "-1" is not a whole number in 0..10000000'),
+            ("gt/gt.txt", 3, "1,1.5,3,4,5,6,1,1,1", 'gt/gt.txt:3: id "1.5" is not a whole number'),
+            ("gt/gt.txt", 3, "1,3000000000,3,4,5,6,1,1,1", 'gt/gt.txt:3: id "3000000000" is not a whole number'),
             ("det/det.txt", 5, "0,-1,1,2,3,4,0.5", 'det/det.txt:5: frame "0" is not a whole number from 1 on'),
             ("det/det.txt", 5, "1,-1,1,2,-3,4,0.5", 'det/det.txt:5: width "-3" is negative'),
             ("det/det.txt", 5, "1,-1,1,2,3,4", "det/det.txt:5: expected frame,id,left,top,width,height,score,..."),

@@ -16,7 +16,7 @@ def split(line):
 
 def read_rows(path):
     """The rows of a MOTChallenge file as lists of strings."""
-    with open(path) as file:
+    with open(path, encoding="utf-8-sig") as file:
         lines = (line.strip() for line in file)
         return [split(line) for line in lines if line]
 

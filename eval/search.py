@@ -38,6 +38,11 @@ class Trials:
         command, tracks = self.evaluation.command(entry, sequence, None)
         return command, os.path.basename(tracks)
 
+    def inputs(self, sequence):
+        """What changes with anything of the sequence that a score depends on."""
+        truth = self.evaluation.truths[self.setup.name, sequence.name]
+        return self.command(sequence, {})[1], store.content(truth.path), truth.skipped, truth.frames
+
     def score(self, sequences, values):
         """The metric in percent over the sequences together."""
         evaluation, files = self.evaluation, []
@@ -101,11 +106,8 @@ class Searcher:
 
     def study(self, sequences):
         """The study of these sequences, as far as it has come."""
-        contents = [
-            store.content(path)
-            for sequence in sequences
-            for path in (sequence.det, self.trials.evaluation.truths[self.trials.setup.name, sequence.name].path)
-        ]
+        # Beside the detections, scores depend on images, camera motion, embeddings, frame rate, size: on the whole command.
+        contents = [part for sequence in sequences for part in self.trials.inputs(sequence)]
         name = store.key("study", self.trials.identity(), self.dimensions, self.seed, *contents)
         study = optuna.create_study(study_name=name, storage=self.storage, direction="maximize", load_if_exists=True)
         known = study.get_trials(deepcopy=False)

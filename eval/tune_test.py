@@ -38,13 +38,13 @@ class Tune(unittest.TestCase):
     def tearDownClass(cls):
         cls.directory.cleanup()
 
-    def tune(self, trials, *more):
+    def tune(self, trials, *more, out="out"):
         command = [sys.executable, f"{HERE}/tune.py", f"{self.root}/data", "--program", PROGRAM, "--cache",
-                   f"{self.root}/cache", "--out", f"{self.root}/out", "--trials", str(trials), "--folds", "3",
+                   f"{self.root}/cache", "--out", f"{self.root}/{out}", "--trials", str(trials), "--folds", "3",
                    "--parameters", KEYS, *more]
         done = subprocess.run(command, capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
-        with open(f"{self.root}/out/tune.json") as file:
+        with open(f"{self.root}/{out}/tune.json") as file:
             return json.load(file), done.stdout + done.stderr
 
     def read(self, name):
@@ -94,6 +94,13 @@ class Tune(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue(done.stdout)
         return done.stdout
+
+    def test_a_search_of_other_inputs_begins_anew(self):
+        one = ("--sequences", "syn_b1", "--seed", "3")
+        self.tune(4, *one, "--fps", "30")
+        after, _ = self.tune(4, *one, "--fps", "4")
+        alone, _ = self.tune(4, *one, "--fps", "4", out="alone")
+        self.assertEqual(after, alone)
 
     def test_time_ends_the_search(self):
         result, _ = self.tune(10000, "--time", "0.02", "--seed", "1", "--metric", "IDF1")

@@ -49,6 +49,9 @@ double MotRow::number(std::size_t index, const char *name) const {
 void MotRow::refuse(const std::string &reason) const { refuse_line(file, line, reason); }
 
 void for_each_line(std::string_view text, const std::function<void(long, std::string_view)> &visit) {
+    // Editors on Windows begin files with this.
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+    if (text.substr(0, byte_order_mark.size()) == byte_order_mark) text.remove_prefix(byte_order_mark.size());
     for (long number = 1; !text.empty(); ++number) {
         const auto end = std::min(text.find('\n'), text.size());
         const auto line = trimmed(text.substr(0, end));
