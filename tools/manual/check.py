@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks the manual: its links and anchors, the names it mentions, and every block of code, which is compiled, run or
+"""Checks the manual: its links and anchors, the names it mentions, times it quotes, and every block of code, which is compiled, run or
 read; see blocks.py for how each is treated.
 
     check.py BUILD [PAGE...]     BUILD is CMake's build directory, with the library and the examples in it
@@ -24,6 +24,7 @@ def enter(build):
 def check(root, build, only=()):
     """Prints what is wrong and what was skipped; returns the numbers of both and of the blocks."""
     import blocks
+    import figures
     import library
     import links
     import names
@@ -40,6 +41,8 @@ def check(root, build, only=()):
     for page in chosen:
         wrong += known.check(page)
         wrong += [f"{page.name}:{line}: an indented block of code; fence it, with its language" for line in page.unfenced]
+    if (root / figures.SOURCE).exists():
+        wrong += figures.check(chosen, (root / figures.SOURCE).read_text())
     skipped, count = [], 0
     with tempfile.TemporaryDirectory(prefix="gentrack2-manual-") as scratch:
         scratch = pathlib.Path(scratch)

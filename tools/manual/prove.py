@@ -16,6 +16,8 @@ import check as manual
 
 GOOD = {
     "README.md": "# One\n\n[two](docs/two.md#a-heading)\n\n```c\nint main(void) { return 0; }\n```\n",
+    "PERFORMANCE.md": "# Speed\n\n### MOT17-04\n\n| | x |\n|---|---|\n| sort | 10.2 | 3 |\n\n### Growth\n\n"
+                      "| sort: 21.7, 45, 121, 266, 579 | 1 |\n\n| sort: bytes per live track | 822 B |\n",
     "docs/two.md": "## A heading\n\n| parameter | default |\n|---|---|\n| `coast` | 18 |\n\n`coast=0`, `gt2_tracker_step`\n",
 }
 
@@ -33,6 +35,9 @@ MISTAKES = {
     "a wrong default": ("| parameter | default |\n|---|---|\n| `coast` | 19 |", "the default is"),
     "a wrong one of two": ("| parameter of `x` | default |\n|---|---|\n| `coast`, `birth_iou` | 18, 1 |", "the default is"),
     "a default too few": ("| parameter | default |\n|---|---|\n| `coast`, `birth_iou` | 18 |", "1 defaults for 2"),
+    "a time that was not measured": ("| name | µs/frame |\n|---|---|\n| `sort` | 9 |", "takes 10 µs"),
+    "another time of many objects": ("| objects | `sort` |\n|---|---|\n| 1000 | 167 |", "takes 266 µs"),
+    "a quoted size of nobody": ("| case | numbers |\n|---|---|\n| hardly any memory | 822 and 620 |", "620 is nobody's"),
     "a file that is not there": ("`tests/nothing.rs`", "no such file"),
     "a source file without that function": ("[`ageing::grow_old`](../src/trackers/gentrack2/ageing.rs)", "defines no"),
     "a block without a language": ("```\nx\n```", "nobody knows"),
