@@ -301,7 +301,8 @@ class Finder:
         else:
             without = [sequence.name for sequence in found if not sequence.images]
             self.say(
-                "images: " + (f"of {some(with_images)}, not of {some(without)}" if without else "of each sequence")
+                "images: " + (f"of {some(with_images)}, not of {some(without)}" if without else "of each sequence") +
+                ("" if self.wishes.gmc == "estimate" else "; only gentrack2 looks at them")
             )
 
 

@@ -31,6 +31,8 @@ class Page(html.parser.HTMLParser):
     def __init__(self, text):
         super().__init__()
         self.tags, self.addresses, self.labels, self.row_names, self.in_row_name = [], [], [], [], False
+        # Of all tables: the heads of their columns, and per row the cells' texts and whether they are marked as best.
+        self.heads, self.cells, self.place = [], [], None
         self.feed(text)
 
     def handle_starttag(self, tag, attributes):
@@ -39,8 +41,28 @@ class Page(html.parser.HTMLParser):
         self.addresses += [attributes[name] for name in ("src", "href", "xlink:href") if name in attributes]
         self.labels += [attributes.get("aria-label")] if tag == "svg" else []
         self.in_row_name = attributes.get("scope") == "row"
+        if tag == "table":
+            self.heads.append([])
+            self.cells.append([])
+        elif tag == "th":
+            self.place = "head" if attributes.get("scope") == "col" else None
+            if self.in_row_name:
+                self.cells[-1].append([])
+        elif tag == "td":
+            self.place = "cell"
+            self.cells[-1][-1].append(["", attributes.get("class") == "best"])
+        elif tag == "span":
+            self.place = None
+
+    def handle_endtag(self, tag):
+        if tag in ("th", "td"):
+            self.place = None
 
     def handle_data(self, data):
+        if self.place == "head":
+            self.heads[-1].append(data)
+        elif self.place == "cell":
+            self.cells[-1][-1][-1][0] += data
         if self.in_row_name and data.strip():
             self.row_names.append(data.strip())
             self.in_row_name = False
@@ -53,6 +75,8 @@ class Report(unittest.TestCase):
         cls.root = cls.directory.name
         cls.data = synthetic.data_set(f"{cls.root}/data")
         cls.first = cls.report(cls.data, "--json", f"{cls.root}/scores.json")
+        with open(f"{cls.root}/out/index.html") as file:
+            cls.page = file.read()
 
     @classmethod
     def tearDownClass(cls):
@@ -77,9 +101,7 @@ class Report(unittest.TestCase):
         return done.stdout + done.stderr
 
     def test_the_page_has_everything_in_itself(self):
-        with open(f"{self.root}/out/index.html") as file:
-            text = file.read()
-        page = Page(text)
+        text, page = self.page, Page(self.page)
         self.assertEqual(page.row_names, entries.TRACKERS * 4)
         outside = [each for each in page.addresses if not each.startswith(("#", "data:"))]
         self.assertEqual(outside, [])
@@ -98,6 +120,22 @@ class Report(unittest.TestCase):
         # Easy scenes: a tracker that loses them is broken, and so is a judge that finds no switches at all.
         self.assertGreater(together["HOTA"], 60)
         self.assertGreater(max(row["runs"][0]["scores"]["COMBINED_SEQ"]["IDSW"] for row in scores.values()), 0)
+
+    def test_the_pages_numbers_and_marks_are_those_of_the_scores(self):
+        with open(f"{self.root}/scores.json") as file:
+            scores = [row["runs"][0]["scores"] for row in json.load(file)["data"].values()]
+        page = Page(self.page)
+        sequences = ["COMBINED_SEQ", *sorted(set(scores[0]) - {"COMBINED_SEQ"})]
+        self.assertEqual(len(page.cells), len(sequences))
+        for sequence, heads, rows_of_table in zip(sequences, page.heads, page.cells):
+            self.assertEqual(heads[:6], ["tracker", "ATA", "IDF1", "HOTA", "MOTA", "IDSW"])
+            for at, name in enumerate(heads[1:6]):
+                values = [row[sequence][name] for row in scores]
+                texts = [f"{value:.0f}" if name == "IDSW" else f"{value:.2f}" for value in values]
+                self.assertEqual([row[at][0] for row in rows_of_table], texts, f"{sequence} {name}")
+                best = (min if name == "IDSW" else max)(values)
+                marked = [abs(value - best) < 1e-6 for value in values]
+                self.assertEqual([row[at][1] for row in rows_of_table], marked, f"{sequence} {name}")
 
     def test_a_second_run_does_only_what_changed(self):
         self.assertIn("0 runs and 0 judgements were new", self.report(self.data))
