@@ -104,6 +104,12 @@ def fixed_values(settings, described):
     return values
 
 
+def remove(path):
+    """One of an earlier search."""
+    if os.path.exists(path):
+        os.remove(path)
+
+
 def write(options, title, described, fixed, found, final):
     """Prints what was found and writes the files."""
     verdict, out = folds.verdict(found, final), os.path.abspath(options.out)
@@ -115,13 +121,16 @@ def write(options, title, described, fixed, found, final):
     best = toml(header, described, fixed | final.values)
     if verdict.proven:
         store.write(config, best)
-        if os.path.exists(candidate):
-            os.remove(candidate)
+        remove(candidate)
     else:
         store.write(config, toml(header, described, fixed))
-        store.write(candidate, best)
         also = " and what --set says" if fixed else ""
-        print(f"{config} has the defaults{also}; what was best where it was searched is in {candidate}")
+        if final.values:
+            store.write(candidate, best)
+            print(f"{config} has the defaults{also}; what was best where it was searched is in {candidate}")
+        else:
+            remove(candidate)
+            print(f"{config} has the defaults{also}")
     store.write(
         f"{out}/tune.json",
         json.dumps(
