@@ -106,7 +106,7 @@ class Searcher:
 
     def study(self, sequences):
         """The study of these sequences, as far as it has come."""
-        # Beside the detections, scores depend on images, camera motion, embeddings, frame rate, size: on the whole command.
+        # Beside the detections, scores depend on images, camera motion, frame rate: on the whole command.
         contents = [part for sequence in sequences for part in self.trials.inputs(sequence)]
         name = store.key("study", self.trials.identity(), self.dimensions, self.seed, *contents)
         study = optuna.create_study(study_name=name, storage=self.storage, direction="maximize", load_if_exists=True)

@@ -58,6 +58,8 @@ DetectionOptions options_of(std::string_view letters) {
 }
 
 std::size_t count_lines(std::string_view text, bool blank_ones_too) {
+    // A byte order mark at the beginning is no part of the first line.
+    if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);
     std::size_t lines = 0;
     for (std::size_t from = 0; from < text.size();) {
         const auto end = std::min(text.find('\n', from), text.size());

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Checks the manual: its links and anchors, the names it mentions, times it quotes, and every block of code, which is compiled, run or
-read; see blocks.py for how each is treated.
+"""Checks the manual: its links and anchors, the names it mentions, times it quotes, and every block of code, which is
+compiled, run or read; see blocks.py for how each is treated.
 
     check.py BUILD [PAGE...]     BUILD is CMake's build directory, with the library and the examples in it
 """
