@@ -9,58 +9,19 @@
  */
 #define _POSIX_C_SOURCE 200112L
 #include <sys/wait.h>
-#include <unistd.h>
 
+#include "../feed.h"
 #include "../results_hash.h"
 #include "garbage.h"
 #include "identities.h"
 #include "step_times.h"
 
-enum { WARM_UP = 120, WINDOW = 10000, SAVE_EVERY = 4999, MOT17_04 = 1050, SEQUENCES = 3 };
+enum { WARM_UP = 120, WINDOW = 10000, SAVE_EVERY = 4999 };
 /* What resident memory may grow by after the first window, and the median step in the last one, relative to it. */
 #define MARGIN_KIB 2048L
 #define MOST_RATIO 1.1
 /* Identities cross the 32-bit border early. */
 #define FIRST_ID (UINT64_C(4294967296) - CROWD - 150)
-
-/* Those that put most into a frame. */
-static const char *const synthetic[SEQUENCES] = {"syn_a2", "syn_b2", "syn_b3"};
-
-typedef struct feed {
-    sequence sequences[SEQUENCES];
-    int count, which, frame;
-} feed;
-
-static int open_feed(feed *f, const char *fixtures) {
-    char path[1024];
-    const char *shared = getenv("GENTRACK2_SHARED");
-    memset(f, 0, sizeof *f);
-    snprintf(path, sizeof path, "%s/mot17/MOT17-04", shared == NULL ? "" : shared);
-    if (shared != NULL && access(path, R_OK) == 0) {
-        f->count = 1;
-        printf("MOT17-04 is looped\n");
-        return read_files(&f->sequences[0], MOT17_04, path, "/", "embeddings.f32");
-    }
-    printf("GENTRACK2_SHARED does not name a directory with mot17/MOT17-04: synthetic sequences are looped\n");
-    for (; f->count < SEQUENCES; f->count++) {
-        snprintf(path, sizeof path, "%s/oracles/synthetic/%s", fixtures, synthetic[f->count]);
-        if (!read_files(&f->sequences[f->count], FRAMES, path, ".", "f32")) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
-static gt2_frame next_frame(feed *f) {
-    if (++f->frame > f->sequences[f->which].frames) {
-        f->frame = 1;
-        f->which = (f->which + 1) % f->count;
-    }
-    gt2_frame frame = frame_at(&f->sequences[f->which], f->frame);
-    frame.image_width = 1920;
-    frame.image_height = 1080;
-    return frame;
-}
 
 /* Resident memory of this process in KiB. */
 static long resident(void) {
@@ -222,6 +183,7 @@ int main(int count, char **arguments) {
     if (!CHECK(open_feed(&f, arguments[1]))) {
         return 1;
     }
+    printf("looped: %s\n", f.name);
     printf("%-10s %9s %8s %9s %9s %8s %8s %6s %9s %12s\n", "", "accepted", "refused", "KiB first", "KiB last",
            "us first", "us last", "ratio", "ids given", "highest id");
     for (size_t k = 0; count == named && k < gt2_algorithm_count(); k++) {
@@ -230,8 +192,6 @@ int main(int count, char **arguments) {
     for (int i = named; i < count; i++) {
         soak_in_process(arguments[i], &f, frames, judge_times);
     }
-    for (int i = 0; i < f.count; i++) {
-        free_sequence(&f.sequences[i]);
-    }
+    close_feed(&f);
     return check_result();
 }
