@@ -70,6 +70,9 @@ pub struct ParameterSpec {
     pub documentation: String,
 }
 
+/// Rectangles in a list: every weak track is looked for in all of them.
+const MOST_AREAS: usize = 1000;
+
 impl ParameterSpec {
     fn refuse(&self, reason: String) -> Error {
         Error::ParameterValue { key: self.key.to_string(), reason }
@@ -80,6 +83,9 @@ impl ParameterSpec {
         let number = match value {
             Value::Float(x) => *x,
             Value::Integer(i) => *i as f64,
+            Value::Areas(areas) if areas.len() > MOST_AREAS => {
+                return Err(self.refuse(format!("{} areas are more than {MOST_AREAS}", areas.len())));
+            }
             _ => return Ok(()),
         };
         if number.is_finite() && number >= self.minimum && number <= self.maximum {

@@ -29,6 +29,18 @@ fn refusal(tracker: &mut Tracker, frame: &Frame<'_>) -> String {
 }
 
 #[test]
+fn entrance_areas_are_a_thousand_at_most() {
+    let mut config = Config::new("gentrack2").unwrap();
+    let areas = |count: usize| vec!["0,0,10,10"; count].join(";");
+    config.set_text("entrance_areas", &areas(1000)).unwrap();
+    let error = config.set_text("entrance_areas", &areas(1001)).unwrap_err().to_string();
+    assert!(error.contains("entrance_areas") && error.contains("1001 areas are more than 1000"), "{error}");
+    let rows = vec!["[0.0, 0.0, 10.0, 10.0]"; 1001].join(", ");
+    let error = config.load_toml(&format!("entrance_areas = [{rows}]")).unwrap_err().to_string();
+    assert!(error.contains("1001 areas are more than 1000"), "{error}");
+}
+
+#[test]
 fn limits_have_limits() {
     let common = CommonParameters::default();
     for key in LIMITS {

@@ -281,7 +281,7 @@ parameters! {
         covered_pace: f64 = 0.57, [0.0, 1.0], "", "";
         /// The same for one whose centre is outside the image (where its size is known), which will hardly come back.
         outside_pace: f64 = 2.0, [0.0, 1000.0], "", "";
-        /// Places where targets enter and leave: weak tracks centred in them age faster.
+        /// Places where targets enter and leave, 1000 at most: weak tracks centred in them age faster.
         entrance_areas: Vec<Rect> = Vec::new(), [], "px", "";
         /// How much faster.
         entrance_penalty: f64 = 0.5, [0.0, 1.0], "", "Delta_e";
