@@ -84,6 +84,14 @@ for_every_algorithm! {
         });
     }
 
+    /// More of their widths or heights lie between two of them than an integer counts.
+    fn of_slivers_far_apart(algorithm: Algorithm) {
+        for (width, height) in [(1e-30, 10.0), (10.0, 1e-30), (1e-30, 1e-30), (1e-160, 10.0)] {
+            let sliver = |i: usize| Detection::new(4e7 * i as f64, 4e7 * (i % 150) as f64, width, height, 0.9);
+            three_frames(Watched::new(algorithm), |_| (0..COUNT).map(sliver).collect());
+        }
+    }
+
     fn on_a_dense_grid_then_none(algorithm: Algorithm) {
         let mut watched = three_frames(Watched::new(algorithm), |_| grid());
         assert_eq!(watched.reported(), COUNT);

@@ -62,11 +62,13 @@ impl Cells {
         // A long row of boxes has its cells along it, not more of them.
         let cells = Self { x: axis(left, right - left, across), y: axis(top, bottom - top, down) };
         let is_sound = cells.x.per_pixel.is_finite() && cells.y.per_pixel.is_finite();
-        (is_sound && (cells.count() as f64) < 4.0 * CELLS_PER_BOX * count + 64.0).then_some(cells)
+        // Not as whole numbers: slivers far apart would have more cells than these can count.
+        let in_all = (cells.x.last as f64 + 1.0) * (cells.y.last as f64 + 1.0);
+        (is_sound && in_all < 4.0 * CELLS_PER_BOX * count + 64.0).then_some(cells)
     }
 
     fn count(&self) -> usize {
-        (self.x.last + 1).saturating_mul(self.y.last + 1)
+        (self.x.last + 1) * (self.y.last + 1)
     }
 
     /// The cells that a box meets: of some lines of cells so many, one after the other; with each line what is true of it.
@@ -182,6 +184,11 @@ mod tests {
         let far = Rect::new(1e12, 1e12, 10.0, 10.0);
         let one_cell: Vec<Rect> = field(900, 8.0).into_iter().chain([far]).collect();
         assert!(!Grid::default().add_pairs(&one_cell, &one_cell, usize::MAX, &mut Vec::new()));
+        for (width, height) in [(1e-30, 10.0), (10.0, 1e-30)] {
+            let slivers: Vec<Rect> =
+                (0..900).map(|i| 1e9 * i as f64).map(|at| Rect::new(at, at, width, height)).collect();
+            assert!(!Grid::default().add_pairs(&slivers, &slivers, usize::MAX, &mut Vec::new()));
+        }
         let wide = Rect::new(0.0, 0.0, 1e6, 1e6);
         let many_cells: Vec<Rect> = field(900, 1000.0).into_iter().chain([wide; 60]).collect();
         assert!(!Grid::default().add_pairs(&many_cells, &many_cells, usize::MAX, &mut Vec::new()));
