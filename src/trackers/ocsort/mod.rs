@@ -29,7 +29,7 @@ use crate::track::Output;
 use crate::tracker::StepContext;
 
 use heading::Heading;
-use observed_track::{Observations, ObservedTrack};
+use observed_track::{ObservedTrack, Spare};
 use reupdate::FrozenPool;
 
 /// The tracker.
@@ -49,7 +49,7 @@ struct Workspace {
     unmatched: Vec<u32>,
     views: Vec<View>,
     association: FullAssociation,
-    spare: Vec<Observations>,
+    spare: Spare,
     frozen: FrozenPool,
 }
 
@@ -92,7 +92,7 @@ impl OcSort {
         };
         for track in self.tracks.extract_if(.., is_over) {
             output.ended.push(track.life.id);
-            work.spare.push(track.retire(&mut work.frozen));
+            work.spare.put(track.retire(&mut work.frozen));
         }
         work.unmatched.clear();
         work.unmatched.extend(0..self.tracks.len() as u32);
@@ -193,7 +193,8 @@ impl OcSort {
         let partners = work.association.partners();
         for (&row, &slot) in rows.iter().zip(partners).filter(|(_, slot)| **slot != UNMATCHED) {
             let track = std::mem::replace(&mut work.unmatched[slot as usize], UNMATCHED);
-            self.tracks[track as usize].take(row, &detections[row as usize], p.delta_t as u64, &mut work.frozen);
+            let detection = &detections[row as usize];
+            self.tracks[track as usize].take(row, detection, p.delta_t as u64, &mut work.spare, &mut work.frozen);
         }
         work.unmatched.retain(|track| *track != UNMATCHED);
         let mut partners = partners.iter();
@@ -203,9 +204,7 @@ impl OcSort {
     fn start_tracks(&mut self, detections: &[Detection], context: &mut StepContext<'_>) {
         let room = context.max_tracks.saturating_sub(self.tracks.len());
         for &row in self.work.high.iter().take(room) {
-            let observations = self.work.spare.pop().unwrap_or_default();
-            let id = context.ids.take();
-            self.tracks.push(ObservedTrack::born(id, row, &detections[row as usize], observations));
+            self.tracks.push(ObservedTrack::born(context.ids.take(), row, &detections[row as usize]));
         }
     }
 }
@@ -236,13 +235,13 @@ impl TrackingAlgorithm for OcSort {
             judge,
             |t| t.run.is_over(max_age),
             |t| t.shown(rate, !frame.detector_skipped),
-            |t| spare.push(t.retire(frozen)),
+            |t| spare.put(t.retire(frozen)),
         );
     }
 
     fn reset(&mut self) {
         let Workspace { spare, frozen, .. } = &mut self.work;
-        spare.extend(self.tracks.drain(..).map(|t| t.retire(frozen)));
+        self.tracks.drain(..).for_each(|t| spare.put(t.retire(frozen)));
     }
 
     #[cfg(feature = "snapshot")]

@@ -48,6 +48,29 @@ impl Observations {
     }
 }
 
+/// Memory for observations, of tracks that ended. Most tracks of a crowd are never matched and need none.
+#[derive(Default)]
+pub struct Spare(Vec<Observations>);
+
+impl Spare {
+    /// Keeps what a track leaves.
+    pub fn put(&mut self, observations: Observations) {
+        if observations.list.capacity() > 0 {
+            self.0.push(observations);
+        }
+    }
+
+    /// Memory for somebody who has none yet.
+    fn lend(&mut self, observations: &mut Observations) {
+        if observations.list.capacity() == 0
+            && let Some(mut spare) = self.0.pop()
+        {
+            spare.list.clear();
+            *observations = spare;
+        }
+    }
+}
+
 /// A track.
 #[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct ObservedTrack {
@@ -62,13 +85,12 @@ pub struct ObservedTrack {
 
 impl ObservedTrack {
     /// The detection of the birth is no observation.
-    pub fn born(id: u64, row: u32, detection: &Detection, mut observations: Observations) -> Self {
-        observations.list.clear();
+    pub fn born(id: u64, row: u32, detection: &Detection) -> Self {
         Self {
             life: Life::begin(id, row, detection),
             run: Run::default(),
             filter: AreaRatio::new(&Measurement::of(&detection.rect, EPSILON)),
-            observations,
+            observations: Observations::default(),
             gap: GapMemory::default(),
             direction: None,
             age: 0,
@@ -100,12 +122,13 @@ impl ObservedTrack {
     }
 
     /// Takes a detection.
-    pub fn take(&mut self, row: u32, detection: &Detection, delta_t: u64, pool: &mut FrozenPool) {
+    pub fn take(&mut self, row: u32, detection: &Detection, delta_t: u64, spare: &mut Spare, pool: &mut FrozenPool) {
         if self.observations.counts()
             && let Some(from) = self.observations.look_back(self.age, delta_t)
         {
             self.direction = Some(Direction::between(&from, &detection.rect));
         }
+        spare.lend(&mut self.observations);
         self.observations.add(self.age, detection, delta_t);
         self.life.take(row, detection);
         self.run.matched();
@@ -132,5 +155,27 @@ impl ObservedTrack {
         };
         let velocity = presentable_velocity(self.filter.velocity(), frame_rate);
         (self.life.track(rect, velocity, self.run.state()), self.run.is_reported())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn memory_is_lent_to_who_is_matched_and_kept_of_who_was() {
+        let detection = Detection::new(10.0, 20.0, 30.0, 40.0, 0.9);
+        let (mut spare, mut frozen) = (Spare::default(), FrozenPool::default());
+        let mut seen = ObservedTrack::born(1, 0, &detection);
+        seen.take(0, &detection, 3, &mut spare, &mut frozen);
+        spare.put(seen.retire(&mut frozen));
+        spare.put(ObservedTrack::born(2, 0, &detection).retire(&mut frozen));
+        assert_eq!(spare.0.len(), 1);
+        let place = spare.0[0].list.as_slices().0.as_ptr();
+        let mut next = ObservedTrack::born(3, 0, &detection);
+        next.take(0, &detection, 3, &mut spare, &mut frozen);
+        assert!(spare.0.is_empty());
+        assert_eq!(next.observations.list.len(), 1);
+        assert_eq!(next.observations.list.as_slices().0.as_ptr(), place);
     }
 }
