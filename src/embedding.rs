@@ -100,6 +100,41 @@ impl Gallery {
     }
 }
 
+/// Memory of galleries whose tracks ended, the largest first. Short lives get the smallest, and who outgrows theirs gets a
+/// larger one: else nearly every gallery had to grow to its full size before a tracker stopped allocating.
+#[derive(Default)]
+pub struct SpareGalleries(Vec<Gallery>);
+
+impl SpareGalleries {
+    /// Keeps the memory of a gallery.
+    pub fn put(&mut self, mut gallery: Gallery) {
+        gallery.clear();
+        let size = gallery.rows.capacity();
+        if size > 0 {
+            self.0.insert(self.0.partition_point(|g| g.rows.capacity() >= size), gallery);
+        }
+    }
+
+    /// An empty gallery.
+    pub fn take(&mut self) -> Gallery {
+        self.0.pop().unwrap_or_default()
+    }
+
+    /// Moves a gallery that is about to grow by one of its `budget` embeddings, of this length, into larger memory, if
+    /// there is some.
+    pub fn make_room(&mut self, gallery: &mut Gallery, dimension: usize, budget: usize) {
+        let needed = gallery.rows.len() + dimension;
+        if gallery.rows.capacity() >= needed || needed > dimension * budget {
+            return;
+        }
+        let Some(smallest) = self.0.partition_point(|g| g.rows.capacity() >= needed).checked_sub(1) else { return };
+        let mut larger = self.0.remove(smallest);
+        larger.rows.extend_from_slice(&gallery.rows);
+        larger.oldest = gallery.oldest;
+        self.put(std::mem::replace(gallery, larger));
+    }
+}
+
 /// Scales a vector to length 1; one too short to have a direction becomes zeros.
 fn to_unit(vector: &mut [f64]) {
     let norm = dot(vector, vector).sqrt();
@@ -132,6 +167,27 @@ fn sum_of_products(length: usize, product: impl Fn(usize) -> f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn who_outgrows_a_gallery_gets_the_smallest_of_the_larger_ones() {
+        let of_size = |numbers: usize| Gallery { rows: Vec::with_capacity(numbers), oldest: 0 };
+        let mut spare = SpareGalleries::default();
+        for numbers in [8, 64, 0, 16, 32] {
+            spare.put(of_size(numbers));
+        }
+        let mut gallery = spare.take();
+        let sizes = |spare: &SpareGalleries| spare.0.iter().map(|g| g.rows.capacity()).collect::<Vec<_>>();
+        assert_eq!((gallery.rows.capacity(), sizes(&spare)), (8, vec![64, 32, 16]));
+        for _ in 0..3 {
+            spare.make_room(&mut gallery, 4, 5);
+            gallery.add(&[0.5; 4], 5);
+        }
+        assert_eq!((gallery.rows.capacity(), sizes(&spare)), (16, vec![64, 32, 8]));
+        assert_eq!(gallery.rows, [0.5; 12]);
+        gallery.add(&[0.5; 4], 5);
+        spare.make_room(&mut gallery, 4, 4);
+        assert_eq!(gallery.rows.capacity(), 16, "a full ring grows no more");
+    }
 
     #[test]
     fn rows_are_scaled_to_length_one_and_zeros_are_none() {

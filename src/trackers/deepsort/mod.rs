@@ -11,7 +11,7 @@ use super::life::{Life, SMALLEST, is_beyond, presentable, presentable_velocity};
 use super::overlaps::Extent;
 use super::pairing::Pairing;
 use crate::assignment::Edge;
-use crate::embedding::{Gallery, UnitRows};
+use crate::embedding::{Gallery, SpareGalleries, UnitRows};
 use crate::faults::{self, Stage};
 use crate::frame::{Detection, Frame};
 use crate::geometry::Rect;
@@ -44,8 +44,15 @@ impl DeepTrack {
         Rect::from(self.filter.state())
     }
 
-    fn take(&mut self, row: u32, detection: &Detection, embedding: Option<&[f64]>, p: &DeepSortParameters) {
-        self.learn(embedding, p);
+    fn take(
+        &mut self,
+        row: u32,
+        detection: &Detection,
+        embedding: Option<&[f64]>,
+        p: &DeepSortParameters,
+        spare: &mut SpareGalleries,
+    ) {
+        self.learn(embedding, p, spare);
         self.life.take(row, detection);
         self.filter.correct(&detection.rect);
         self.confirmed |= i64::from(self.life.hits) >= p.n_init;
@@ -53,8 +60,9 @@ impl DeepTrack {
         self.missed = 0.0;
     }
 
-    fn learn(&mut self, embedding: Option<&[f64]>, p: &DeepSortParameters) {
+    fn learn(&mut self, embedding: Option<&[f64]>, p: &DeepSortParameters, spare: &mut SpareGalleries) {
         if let Some(seen) = embedding {
+            spare.make_room(&mut self.gallery, seen.len(), p.nn_budget as usize);
             self.gallery.add(seen, p.nn_budget as usize);
         }
     }
@@ -96,7 +104,7 @@ struct Workspace {
     step: Vec<u32>,
     edges: Vec<Edge>,
     pairing: Pairing,
-    spare: Vec<Gallery>,
+    spare: SpareGalleries,
 }
 
 impl DeepSort {
@@ -121,7 +129,7 @@ impl DeepSort {
         faults::point(Stage::Removal);
         for track in self.tracks.extract_if(.., |t| is_over(t)) {
             output.ended.push(track.life.id);
-            self.work.retire(track.gallery);
+            self.work.spare.put(track.gallery);
         }
     }
 
@@ -149,7 +157,7 @@ impl DeepSort {
                 work.pairing.pair_edges(&work.edges, &mut work.step, &mut work.rows, p.max_cosine_distance + BEYOND);
             for &(track, row) in pairs {
                 let embedding = work.embeddings.row(row as usize);
-                tracks[track as usize].take(row, &frame.detections[row as usize], embedding, p);
+                tracks[track as usize].take(row, &frame.detections[row as usize], embedding, p, &mut work.spare);
             }
             from += count;
         }
@@ -178,23 +186,25 @@ impl DeepSort {
             cost,
         );
         for &(track, row) in pairs {
-            tracks[track as usize].take(row, detection(row), work.embeddings.row(row as usize), p);
+            let embedding = work.embeddings.row(row as usize);
+            tracks[track as usize].take(row, detection(row), embedding, p, &mut work.spare);
         }
     }
 
     fn start_tracks(&mut self, frame: &Frame<'_>, context: &mut StepContext<'_>) {
         let room = context.max_tracks.saturating_sub(self.tracks.len());
-        for &row in self.work.rows.iter().take(room) {
+        let Workspace { rows, embeddings, spare, .. } = &mut self.work;
+        for &row in rows.iter().take(room) {
             let detection = &frame.detections[row as usize];
             let mut track = DeepTrack {
                 life: Life::begin(context.ids.take(), row, detection),
                 filter: AspectHeight::new(&detection.rect),
-                gallery: self.work.spare.pop().unwrap_or_default(),
+                gallery: spare.take(),
                 confirmed: false,
                 missed_frames: 0,
                 missed: 0.0,
             };
-            track.learn(self.work.embeddings.row(row as usize), &self.parameters);
+            track.learn(embeddings.row(row as usize), &self.parameters, spare);
             self.tracks.push(track);
         }
     }
@@ -233,11 +243,6 @@ impl Workspace {
             }
         }
     }
-
-    fn retire(&mut self, mut gallery: Gallery) {
-        gallery.clear();
-        self.spare.push(gallery);
-    }
 }
 
 impl TrackingAlgorithm for DeepSort {
@@ -267,7 +272,7 @@ impl TrackingAlgorithm for DeepSort {
 
     fn reset(&mut self) {
         for track in self.tracks.drain(..) {
-            self.work.retire(track.gallery);
+            self.work.spare.put(track.gallery);
         }
     }
 
