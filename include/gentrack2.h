@@ -754,14 +754,23 @@ gt2_status gt2_tracker_load(const uint8_t *bytes,
 /// Initial values of a `gt2_parameter_info`.
 #define GT2_PARAMETER_INFO_INIT {sizeof(gt2_parameter_info), NULL, 0, 0, NULL, 0.0, 0.0, NULL, NULL, NULL, NULL, 0}
 
+/* C's casts draw warnings from C++ compilers that are asked for them. */
+#ifdef __cplusplus
+#define GT2_CAST(type, pointer) static_cast<type>(static_cast<const void *>(pointer))
+#else
+#define GT2_CAST(type, pointer) ((type)(const void *)(pointer))
+#endif
+
 /// Track `index` of a list, from 0 to `list->count - 1`.
 static inline const gt2_track *gt2_track_at(const gt2_track_list *list, size_t index) {
-    return (const gt2_track *)(const void *)((const char *)list->tracks + index * list->stride);
+    return GT2_CAST(const gt2_track *, GT2_CAST(const char *, list->tracks) + index * list->stride);
 }
 
 /// Particle `index` of a list, from 0 to `list->count - 1`.
 static inline const gt2_particle *gt2_particle_at(const gt2_particle_list *list, size_t index) {
-    return (const gt2_particle *)(const void *)((const char *)list->particles + index * list->stride);
+    return GT2_CAST(const gt2_particle *, GT2_CAST(const char *, list->particles) + index * list->stride);
 }
+
+#undef GT2_CAST
 
 #endif /* GENTRACK2_H_HELPERS */
