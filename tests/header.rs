@@ -72,6 +72,22 @@ fn the_version_text_is_that_of_the_package() {
 }
 
 #[test]
+fn cargo_c_gives_the_library_the_soname_of_the_header() {
+    let manifest = std::fs::read_to_string(root().join("Cargo.toml")).expect("the manifest is there");
+    let table = manifest.split("[package.metadata.capi.library]").nth(1).expect("cargo-c's table");
+    let value = |key: &str| {
+        let line =
+            table.lines().take_while(|l| !l.starts_with('[')).find_map(|l| l.strip_prefix(key)?.strip_prefix(" = "));
+        line.map(|text| text.trim_matches('"').to_string())
+    };
+    // So many numbers of the version are in the SONAME; the package's is taken where none is given.
+    assert_eq!(value("version_suffix_components").as_deref(), Some("1"));
+    let version = value("version").unwrap_or(env!("CARGO_PKG_VERSION").to_string());
+    let abi = format!("#define GT2_ABI_VERSION {}", version.split('.').next().expect("a number"));
+    assert!(committed().lines().any(|l| l == abi), "cargo-c's version {version} is another ABI: set it in Cargo.toml");
+}
+
+#[test]
 #[ignore = "writes include/gentrack2.h"]
 fn regenerate_header() {
     std::fs::write(root().join("include/gentrack2.h"), generate()).expect("the header can be written");
