@@ -40,7 +40,9 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${runtime_package} (= ${PROJECT_VE
 
 file(READ "${PROJECT_SOURCE_DIR}/LICENSE-MIT" mit)
 file(READ "${PROJECT_SOURCE_DIR}/LICENSE-APACHE" apache)
-file(WRITE "${PROJECT_BINARY_DIR}/copyright" "gentrack2 is licensed under MIT or Apache-2.0, at your choice.\n\n${mit}\n${apache}")
+file(READ "${PROJECT_SOURCE_DIR}/LICENSE-THIRD-PARTY" third_party)
+file(WRITE "${PROJECT_BINARY_DIR}/copyright"
+    "gentrack2 is licensed under MIT or Apache-2.0, at your choice.\n\n${mit}\n${apache}\n${third_party}")
 install(FILES "${PROJECT_BINARY_DIR}/copyright" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${runtime_package}"
     COMPONENT runtime)
 install(FILES "${PROJECT_BINARY_DIR}/copyright" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/libgentrack2-dev"

@@ -60,6 +60,10 @@ c99_pkgconfig)
 c11_static)
     quiet make -C "$own"
     for program in every_tracker fully_static from_pc; do "$own/$program"; done
+    # A plugin shows its own function and nothing of the library within.
+    nm -D --defined-only --format=posix "$own/plugin.so" >"$own/symbols"
+    [ "$(cut -d ' ' -f 1 "$own/symbols")" = followed_trackers ]
+    echo "a plugin with the library within exports $(cut -d ' ' -f 1 "$own/symbols")"
     ;;
 cxx17_find_package)
     configure -DCMAKE_PREFIX_PATH="$prefix" -DVERSION="$VERSION"
@@ -96,6 +100,10 @@ packages)
     dpkg-deb -f "$own"/packages/libgentrack2-dev_*.deb Package Depends | tee "$own/fields"
     grep -q "^Depends: libgentrack2-0 (= $VERSION)$" "$own/fields"
     for tree in debian archive; do
+        # What they are made of is under licences that want their notices handed on; libm's is one of many.
+        for name in libgentrack2-0 libgentrack2-dev; do
+            grep -q "Sun Microsystems" "$(find "$own/$tree" -path "*/doc/$name/copyright")"
+        done
         pc=$(find "$own/$tree" -name gentrack2.pc)
         cp -r "$here/c99_pkgconfig" "$own/$tree/program"
         PKG_CONFIG_PATH=$(dirname "$pc") quiet make -C "$own/$tree/program"
