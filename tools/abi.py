@@ -146,7 +146,8 @@ EDITS = {
     "a constant is added": ("#define GT2_OK 0", "#define GT2_OK 0\n#define GT2_ERR_NEW -99", True),
     "a field at the end": ("    int32_t detector_skipped;\n", "    int32_t detector_skipped;\n    double added;\n", True),
     "a field at the end of a track": ("    uint32_t reserved;\n} gt2_track;", "    uint32_t reserved;\n    double added;\n} gt2_track;", True),
-    "an array at the end": ("    int32_t detector_skipped;\n", "    int32_t detector_skipped;\n    double added[2][3];\n", True),
+    "an array at the end": (
+        "    int32_t detector_skipped;\n", "    int32_t detector_skipped;\n    double added[2][3];\n", True),
     "a function is gone": ("uint32_t gt2_abi_version(void);", "", False),
     "a status has another number": ("#define GT2_ERR_PANIC -7", "#define GT2_ERR_PANIC -77", False),
     "a constant is gone": ("#define GT2_PIXEL_NV12 5", "", False),

@@ -31,7 +31,8 @@ COPYRIGHT-library.html.
 
 
 def cargo(*arguments):
-    return subprocess.run(["cargo", *arguments, "--locked"], check=True, capture_output=True, text=True, cwd=ROOT).stdout
+    command = ["cargo", *arguments, "--locked"]
+    return subprocess.run(command, check=True, capture_output=True, text=True, cwd=ROOT).stdout
 
 
 def linked_crates():
