@@ -35,12 +35,13 @@ struct Input {
 }
 
 impl Input {
-    /// Two that walk through each other, two side by side whose boxes overlap, one that comes late, one that goes and weak
-    /// ones, under a camera that moves a little; once the detector rests.
+    /// Two that walk through each other, three side by side whose boxes overlap, two of them of one class, one that comes
+    /// late, one that goes and weak ones, under a camera that moves a little; once the detector rests.
     fn of(frame: usize) -> Self {
         let t = frame as f64;
-        let mut boxes =
-            vec![(40.0 + 8.0 * t, 60.0, 0.9), (160.0 - 8.0 * t, 64.0, 0.85), (200.0, 120.0, 0.8), (216.0, 121.0, 0.75)];
+        let side_by_side = [(200.0, 120.0, 0.8), (216.0, 121.0, 0.75), (209.0, 118.0, 0.7)];
+        let mut boxes = vec![(40.0 + 8.0 * t, 60.0, 0.9), (160.0 - 8.0 * t, 64.0, 0.85)];
+        boxes.extend(side_by_side);
         match frame {
             0..=4 => boxes.push((40.0 + 2.0 * t, 150.0, 0.95)),
             8.. => boxes.push((100.0 + 3.0 * t, 150.0, 0.9)),
