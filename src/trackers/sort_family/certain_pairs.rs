@@ -21,6 +21,7 @@
 //! are dropped for overlapping too little anyway.
 
 use super::dominant_pairs::CLEAR;
+use super::numbering;
 use super::valued::Valued;
 use crate::assignment::{Assignment, Edge, UNMATCHED, refill};
 
@@ -62,8 +63,7 @@ impl CertainPairs {
             return !matters(pairs);
         }
         self.number(pairs, columns, partners);
-        let is_spare = |(column, number): (u32, &u32)| *number == UNMATCHED && is_plain(column);
-        let spare = (0..).zip(&self.number_of_column).filter(|c| is_spare(*c)).count();
+        let spare = numbering::spare(&self.number_of_column, is_plain);
         let open = partners.iter().filter(|c| **c == UNMATCHED).count();
         let left_out = |chosen: &[u32]| open - chosen.iter().filter(|c| **c != UNMATCHED).count();
         let mut is_done = false;
@@ -83,10 +83,9 @@ impl CertainPairs {
         !matters(pairs)
     }
 
-    /// Numbers the members of the pairs. Columns with a partner have a number as well: they are not to be had.
+    /// Numbers the members of the pairs.
     fn number(&mut self, pairs: &[Valued], columns: usize, partners: &[u32]) {
-        refill(&mut self.number_of_column, columns, UNMATCHED);
-        partners.iter().filter(|c| **c != UNMATCHED).for_each(|c| self.number_of_column[*c as usize] = 0);
+        numbering::begin(&mut self.number_of_column, columns, partners);
         self.pairs.clear();
         self.rows.clear();
         self.columns.clear();

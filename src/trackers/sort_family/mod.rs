@@ -4,6 +4,7 @@
 mod certain_pairs;
 mod dominant_pairs;
 mod full_association;
+mod numbering;
 mod open_pairs;
 mod run;
 mod valued;

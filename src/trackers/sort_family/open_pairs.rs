@@ -1,9 +1,10 @@
 //! The largest sum over the detections and tracks whose pairs do not go without saying: each with each, but only as many
 //! of them looked at as it takes to know that no other could matter.
 
-use crate::assignment::{Assignment, Edge, UNMATCHED, refill};
+use crate::assignment::{Assignment, Edge, UNMATCHED};
 
 use super::full_association::Extra;
+use super::numbering;
 use super::valued::Valued;
 
 /// Price of leaving a detection out: more than any pair can be worth, so that the smaller side is assigned as a whole.
@@ -105,17 +106,13 @@ impl OpenPairs {
         is_plain: &impl Fn(u32) -> bool,
         partners: &[u32],
     ) -> f64 {
-        const TAKEN: u32 = UNMATCHED - 1;
-        const TOUCHED: u32 = 0;
-        refill(&mut self.number_of, tracks, UNMATCHED);
-        partners.iter().filter(|c| **c != UNMATCHED).for_each(|c| self.number_of[*c as usize] = TAKEN);
-        pairs.iter().for_each(|p| self.number_of[p.column as usize] = TOUCHED);
-        let is_spare = |(column, number): (u32, &u32)| *number == UNMATCHED && is_plain(column);
-        let spare = (0..).zip(&self.number_of).filter(|c| is_spare(*c)).count();
-        let enough = spare >= self.rows.len();
+        numbering::begin(&mut self.number_of, tracks, partners);
+        // Any number will do until they get theirs.
+        pairs.iter().for_each(|p| self.number_of[p.column as usize] = 0);
+        let enough = numbering::spare(&self.number_of, is_plain) >= self.rows.len();
         self.columns.clear();
         self.open.clear();
-        for (column, number) in (0..).zip(&mut self.number_of).filter(|(_, number)| **number != TAKEN) {
+        for (column, number) in (0..).zip(&mut self.number_of).filter(|(_, number)| **number != numbering::TAKEN) {
             let stands_for_any = enough && is_plain(column);
             if stands_for_any && *number == UNMATCHED {
                 continue;
