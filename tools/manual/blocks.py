@@ -6,7 +6,8 @@ marker in the line before it:
     <!-- manual: run by FILE -->      commands that stand in FILE, a script that runs elsewhere
     <!-- manual: in the repository --> commands that need the checkout itself; what they install is caught by DESTDIR
     <!-- manual: output -->           what the commands, or the program, before print, exactly
-    <!-- manual: measured -->         a command that measures on the data sets: read here, run by whoever has the data
+    <!-- manual: measured -->         commands that measure on the data sets: run on their first frames, in a copy of what
+                                      they write to; skipped where there is no data
     <!-- manual: not run: REASON -->  counted as skipped
 
 Without a marker, programs are compiled and run, commands run in a directory with a few small files, TOML is read by the
@@ -16,8 +17,10 @@ or none, is an error.
 import itertools
 import json
 import os
+import pathlib
 import re
 import shlex
+import shutil
 import signal
 import subprocess
 import textwrap
@@ -25,6 +28,7 @@ import tomllib
 
 import latex2mathml.converter
 import own_venv
+import shortened
 
 STRICT = ["-Wall", "-Wextra", "-Werror"]
 LIMIT = 300
@@ -111,7 +115,7 @@ class Runner:
         raise Wrong(f"these lines do not stand so in {name}")
 
     def run_by(self, block, name):
-        script = words(self.read(name))
+        script = words(joined(self.read(name)))
         for command in commands(block.text):
             if f" {words(command)} " not in f" {script} ":
                 raise Wrong(f"{name} does not run: {command}")
@@ -153,24 +157,25 @@ class Runner:
 
     def commands(self, block):
         if block.marker == "measured":
-            self.measured(block)
+            return self.measured(block)
         self.only(block, "in the repository")
         where = self.root if block.marker else self.scratch
         done = self.demand(["sh", "-euc", block.text], cwd=where)
         self.printed = done.stdout
 
     def measured(self, block):
-        """Without the data the scripts end as skipped once they have read their options; numbers are the business of who has
-        the data."""
-        environment = {key: value for key, value in self.environment.items() if key != "GENTRACK2_SHARED"}
-        for command in commands(block.text):
-            program = shlex.split(command)
-            if program[0] != "python3" or not (self.root / program[1]).exists():
-                raise Wrong(f"not a script of the repository: {command}")
-            done = self.call(program, cwd=self.root, env=environment)
-            if done.returncode != own_venv.SKIPPED:
-                raise Wrong(f"{command} ended with {done.returncode}\n{shown(done)}")
-        raise Skipped("measures on data sets that are not part of the project")
+        """Without data the scripts end as skipped, once they have read their options."""
+        place, environment = self.scratch / "measuring", dict(self.environment)
+        if not place.exists():
+            copy_of_scripts(self.root, self.build, place)
+        if data := environment.get("GENTRACK2_SHARED"):
+            environment["GENTRACK2_SHARED"] = str(shortened.copy(pathlib.Path(data), self.scratch / "shortened"))
+        done = self.call(["sh", "-euc", block.text], cwd=place, env=environment)
+        missing = [line for line in done.stderr.splitlines() if "is left out" in line]
+        if done.returncode == own_venv.SKIPPED or missing:
+            raise Skipped(shown(done) if done.returncode else "; ".join(missing))
+        if done.returncode:
+            raise Wrong(f"ended with {done.returncode}\n{shown(done)}")
 
     def python(self, block):
         self.only(block)
@@ -227,10 +232,14 @@ def words(text):
     return " ".join(text.split())
 
 
+def joined(text):
+    """The text with its continued lines made one."""
+    return re.sub(r"\\\n\s*", "", text)
+
+
 def commands(text):
     """The commands of a block, comments left out, continued lines joined."""
-    joined = re.sub(r"\\\n\s*", "", text)
-    return [line for line in (re.sub(r"(^|\s)#.*", "", line).strip() for line in joined.split("\n")) if line]
+    return [line for line in (re.sub(r"(^|\s)#.*", "", line).strip() for line in joined(text).split("\n")) if line]
 
 
 def prepare(scratch, root, build, pages):
@@ -252,6 +261,19 @@ def prepare(scratch, root, build, pages):
             "--out", "film.txt", "--annotate", "walk.mp4", "--fps", "25"]
     subprocess.run(film, cwd=scratch, check=True, capture_output=True, env={**os.environ, "LD_LIBRARY_PATH": f"{build}/lib"})
     (scratch / "out/vtest.avi").write_bytes((scratch / "walk.mp4").read_bytes())
+
+
+def copy_of_scripts(root, build, place):
+    """The scripts that measure, and the pages that they write; they take where they are for the repository."""
+    for name in ("eval", "docs"):
+        shutil.copytree(root / name, place / name)
+    for name in ("tools", "examples_cpp"):
+        (place / name).symlink_to(root / name)
+    (place / "build").symlink_to(build)
+    # The sample video, if it has been fetched.
+    (place / "out").mkdir()
+    if (root / "out/vtest.avi").exists():
+        (place / "out/vtest.avi").symlink_to(root / "out/vtest.avi")
 
 
 def draw_frames(directory, count=24, width=320, height=240):

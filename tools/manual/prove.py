@@ -59,7 +59,9 @@ MISTAKES = {
         "```sh\necho 1\n```\n\n<!-- manual: output -->\n```text\n2\n```", "the commands before print"),
     "commands that the script does not run": ("<!-- manual: run by .ci/run -->\n```sh\nmake tea\n```", "does not run"),
     "a measurement that is not there": (
-        "<!-- manual: measured -->\n```sh\npython3 eval/nothing.py\n```", "not a script"),
+        "<!-- manual: measured -->\n```sh\npython3 eval/nothing.py\n```", "ended with"),
+    "a measurement of no set-up": (
+        "<!-- manual: measured -->\n```sh\npython3 eval/evaluate.py --setups H,Z\n```", "unknown set-up"),
     "a marker that means nothing": ("<!-- manual: perhaps -->\n```sh\ntrue\n```", "means nothing"),
     "TOML that is none": ("```toml\n= 1\n```", "Invalid"),
     "TOML of no parameter": ("```toml\ncoastal = 1\n```", "coastal"),
@@ -73,7 +75,7 @@ MISTAKES = {
 def copy_of_repository(root):
     """What the checks look at, without the pages."""
     for name in ("include", "src", "tests/fixtures/oracles/synthetic", "examples_cpp", "tools", "eval", ".ci", "ctest"):
-        shutil.copytree(manual.ROOT / name, root / name, symlinks=True, ignore=shutil.ignore_patterns("*.md", "*venv*"))
+        shutil.copytree(manual.ROOT / name, root / name, symlinks=True, ignore=shutil.ignore_patterns("*.md", "*-venv"))
     shutil.copy(manual.ROOT / "Cargo.toml", root)
     os.mkdir(root / "docs")
     subprocess.run(["git", "init", "-q", root], check=True)
