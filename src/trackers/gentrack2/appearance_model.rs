@@ -16,14 +16,54 @@ const _: () = assert!(CELLS_Y == STRIPES, "rows of cells and stripes are the sam
 
 /// What a box looks like in the image.
 #[derive(Clone, Debug)]
-#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct Looks {
     /// HOG vector.
-    #[cfg_attr(feature = "snapshot", serde(with = "crate::snapshot::numbers"))]
     pub shape: Descriptor,
     /// Histogram of brightness.
-    #[cfg_attr(feature = "snapshot", serde(with = "crate::snapshot::numbers"))]
     pub tones: Tones,
+}
+
+/// Looks as a target keeps them: with images they are most of what it takes. All numbers are in `[0, 1]`, and a unit is
+/// cut into as many steps as 16 bits tell apart.
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
+pub struct LearntLooks {
+    #[cfg_attr(feature = "snapshot", serde(with = "crate::snapshot::numbers"))]
+    shape: [u16; DESCRIPTOR_LEN],
+    #[cfg_attr(feature = "snapshot", serde(with = "crate::snapshot::numbers"))]
+    tones: [u16; TONES_LEN],
+}
+
+impl LearntLooks {
+    /// Those of nothing.
+    pub const NONE: LearntLooks = LearntLooks { shape: [0; DESCRIPTOR_LEN], tones: [0; TONES_LEN] };
+
+    pub fn new(seen: &Looks) -> Self {
+        Self { shape: packed(&seen.shape), tones: packed(&seen.tones) }
+    }
+
+    pub fn recall(&self) -> Looks {
+        Looks { shape: unpacked(&self.shape), tones: unpacked(&self.tones) }
+    }
+
+    /// Blends in what is seen; `momentum` is the share of what was known.
+    pub fn blend(&mut self, seen: &Looks, momentum: f64) {
+        let mut known = self.recall();
+        blend(&mut known.shape, &seen.shape, momentum);
+        blend(&mut known.tones, &seen.tones, momentum);
+        *self = Self::new(&known);
+    }
+}
+
+/// Steps in a unit.
+const STEPS: f32 = u16::MAX as f32;
+
+fn packed<const N: usize>(numbers: &[f32; N]) -> [u16; N] {
+    numbers.map(|x| (x * STEPS + 0.5) as u16)
+}
+
+fn unpacked<const N: usize>(steps: &[u16; N]) -> [f32; N] {
+    steps.map(|x| f32::from(x) / STEPS)
 }
 
 impl Looks {
@@ -43,11 +83,6 @@ impl Looks {
         hide(&mut part.shape, visible);
         hide(&mut part.tones, visible);
         part
-    }
-
-    pub fn blend(&mut self, seen: &Looks, momentum: f64) {
-        blend(&mut self.shape, &seen.shape, momentum);
-        blend(&mut self.tones, &seen.tones, momentum);
     }
 }
 
@@ -124,12 +159,13 @@ mod tests {
 
     #[test]
     fn looks_are_averaged_and_kept_at_length_one() {
-        let mut memory = looks(1.0, 1.0);
+        let mut memory = LearntLooks::new(&looks(1.0, 1.0));
         memory.blend(&looks(0.0, 0.0), 0.75);
-        // (.75, .25), of length sqrt(.625).
-        for vector in [&memory.shape[..2], &memory.tones[..2]] {
-            assert!((vector[0] - 0.75 / 0.625f32.sqrt()).abs() < 1e-6);
-            assert!((vector[1] - 0.25 / 0.625f32.sqrt()).abs() < 1e-6);
+        // (.75, .25), of length sqrt(.625), to the nearest step.
+        let known = memory.recall();
+        for vector in [&known.shape[..2], &known.tones[..2]] {
+            assert!((vector[0] - 0.75 / 0.625f32.sqrt()).abs() <= 0.5001 / STEPS);
+            assert!((vector[1] - 0.25 / 0.625f32.sqrt()).abs() <= 0.5001 / STEPS);
         }
     }
 

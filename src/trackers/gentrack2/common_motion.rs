@@ -3,8 +3,8 @@
 //! Where the camera moves and its motion is not given, velocities lag behind it. Tracks with a detection are put right
 //! by that; unmatched ones are carried along by what the others show.
 
+use super::median::OrderKey;
 use super::target::Target;
-use super::velocity_regression::OrderKey;
 
 /// Strong tracks from which what they agree on means the scene and not some of them.
 const QUORUM: usize = 3;

@@ -238,7 +238,7 @@ pub fn unlikeness(
     column: usize,
     sight: &mut Sight<'_, '_>,
 ) -> Option<f64> {
-    let looks = target.looks()?;
+    let looks = target.looks()?.recall();
     let seen = observations.looks(column, sight.image, sight.hog)?;
     Some(looks.unlikeness(p, seen))
 }

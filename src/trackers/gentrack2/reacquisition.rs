@@ -7,7 +7,7 @@
 use crate::classes::ClassRule;
 use crate::geometry::{Rect, State};
 
-use super::appearance_model::ROWS;
+use super::appearance_model::{LearntLooks, ROWS};
 use super::data_association::{Sight, embedding_part};
 use super::observations::{Observations, Observed};
 use super::parameters::GenTrack2Parameters;
@@ -59,13 +59,13 @@ pub fn find(
 /// that is too far or it is not one to be looked for.
 fn detour(p: &GenTrack2Parameters, target: &Target, detected: &State) -> Option<f64> {
     let sought = target.confirmed && !target.is_strong() && target.covered >= HIDDEN && target.life.hits >= KNOWN_HITS;
-    let last = &target.history.back().filter(|_| sought)?.state;
+    let last = target.history.last().filter(|_| sought)?;
     let growth = detected.h / last.h;
     if !(1.0 / LARGEST_GROWTH..=LARGEST_GROWTH).contains(&growth) {
         return None;
     }
     let reach = p.reacquire_reach * target.velocity.centre_norm() * target.missed + SLACK * last.diagonal();
-    let gone = (*detected - *last).centre_norm();
+    let gone = (*detected - last).centre_norm();
     (gone <= reach).then_some(gone / reach)
 }
 
@@ -82,7 +82,7 @@ fn looks_alike(
         return false;
     }
     let detected = observations.get(index).detection.rect;
-    let known = target.looks().filter(|_| p.hog_cost > 0.0);
+    let known = target.looks().filter(|_| p.hog_cost > 0.0).map(LearntLooks::recall);
     let both = known.and_then(|known| Some((known, observations.looks(index, sight.image, sight.hog)?)));
     // What comes out from behind another shows a part of itself, and for the rest the other.
     both.is_none_or(|(known, seen)| {
@@ -108,13 +108,13 @@ mod tests {
     use super::*;
     use crate::appearance::HogWorkspace;
     use crate::frame::{Detection, Embeddings, Frame};
-    use crate::trackers::gentrack2::target::{Match, Observation};
+    use crate::trackers::gentrack2::target::Match;
 
     /// Last seen at (100, 100), 30 x 40 (diagonal 50), walking at 5 px/tick, gone for 10 ticks behind another.
     fn hidden() -> Target {
         let mut target =
             Target::born(&Detection { rect: seen(100.0, 100.0).into(), score: 0.9, ..Default::default() }, 0, 1);
-        target.history.push_back(Observation { time: 0.0, state: target.state });
+        target.history.push(0.0, &target.state, 1);
         target.velocity = State::new(3.0, 4.0, 0.0, 0.0);
         target.matched = Match::None;
         target.confirmed = true;
@@ -184,7 +184,7 @@ mod tests {
     #[test]
     fn the_nearest_that_does_not_look_otherwise_is_found() {
         let mut far = hidden();
-        far.history[0].state.u = 80.0;
+        far.history.push(0.0, &seen(80.0, 100.0), 1);
         let mut targets = [far, hidden()];
         let rect = seen(102.0, 100.0).into();
         let detections = [Detection { rect, score: 0.9, ..Default::default() }];

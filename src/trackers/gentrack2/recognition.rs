@@ -64,7 +64,7 @@ pub fn find(
 
 /// Whether a target can have got to `detected`, at that size.
 fn can_be(p: &GenTrack2Parameters, target: &Target, detected: &State) -> bool {
-    let Some(last) = target.history.back().map(|seen| seen.state) else { return false };
+    let Some(last) = target.history.last() else { return false };
     let growth = detected.h / last.h;
     let reach = if target.is_strong() { RIVAL } else { SLACK + p.recognition_speed * target.missed };
     let within = |from: &State| (*detected - *from).centre_norm() <= reach * last.diagonal();
@@ -77,7 +77,7 @@ mod tests {
     use crate::appearance::HogWorkspace;
     use crate::frame::{Detection, Embeddings, Frame};
     use crate::image::{ImageView, PixelFormat};
-    use crate::trackers::gentrack2::target::{Match, Observation};
+    use crate::trackers::gentrack2::target::Match;
 
     const SIDE: u32 = 200;
 
@@ -131,7 +131,7 @@ mod tests {
         fn lost(&self, u: f64, strange: f32) -> Target {
             let state = State { u, ..seen() };
             let mut target = Target::born(&Detection { rect: state.into(), score: 0.9, ..Default::default() }, 0, 1);
-            target.history.push_back(Observation { time: 0.0, state });
+            target.history.push(0.0, &state, 1);
             target.matched = Match::None;
             target.confirmed = true;
             target.life.hits = 5;
@@ -204,8 +204,8 @@ mod tests {
         assert!(!found(|t| t.forget_looks()));
         assert!(!found(|t| t.history.clear()));
         // 40 px against 28 and 29.
-        assert!(!found(|t| t.history[0].state.h = 28.0));
-        assert!(found(|t| t.history[0].state.h = 29.0));
+        assert!(!found(|t| t.history.push(0.0, &State { h: 28.0, ..t.state }, 1)));
+        assert!(found(|t| t.history.push(0.0, &State { h: 29.0, ..t.state }, 1)));
     }
 
     #[test]

@@ -63,7 +63,7 @@ impl Swarm {
         self.flight.begin(&target.particles);
 
         let bound = velocity_bound(p, &target.state);
-        let template = target.looks().filter(|_| looking).map(|looks| looks.shape);
+        let template = target.looks().filter(|_| looking).map(|looks| looks.recall().shape);
         let reference = reference(p, target, &bound, template);
         // Descriptors are large: none are set up where there is nothing to see.
         self.looks.clear();

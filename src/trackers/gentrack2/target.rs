@@ -1,7 +1,5 @@
 //! One target: the tracklet `{K, X, V, X^pen, X^age}` of the paper and what is kept with it.
 
-use std::collections::VecDeque;
-
 use crate::embedding::MeanEmbedding;
 use crate::frame::{CameraMotion, Detection};
 use crate::geometry::State;
@@ -9,7 +7,8 @@ use crate::random::Random;
 
 use crate::trackers::life::Life;
 
-use super::appearance_model::Looks;
+use super::appearance_model::{LearntLooks, Looks};
+use super::history::History;
 use super::residual::Residual;
 
 /// A particle: a hypothesis of the target's state, `{X^s, V^s}`.
@@ -22,16 +21,6 @@ pub struct Hypothesis {
     pub velocity: State,
     /// Fitness (eq. 4) after the swarm optimisation.
     pub fitness: f64,
-}
-
-/// A state that a detection confirmed, and when.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
-pub struct Observation {
-    /// Time in ticks.
-    pub time: f64,
-    /// The state after the update, in the coordinates of the current frame.
-    pub state: State,
 }
 
 /// What a track's detection of this frame was.
@@ -91,8 +80,8 @@ pub struct Target {
     pub reported: bool,
     /// The detection of this frame.
     pub matched: Match,
-    /// Observed states, oldest first.
-    pub history: VecDeque<Observation>,
+    /// Observed states.
+    pub history: History,
     /// How well its motion is predicted.
     pub residual: Residual,
     /// What the last prediction missed by, in box diagonals, if it met a detection.
@@ -108,7 +97,7 @@ pub struct Target {
     /// Whether the swarm of this frame could compare looks.
     pub looked_at: bool,
     /// Memory for looks, from when the first image came.
-    looks: Option<Box<Looks>>,
+    looks: Option<Box<LearntLooks>>,
     /// Whether its looks are known.
     has_looks: bool,
     /// Embedding learnt from strong updates.
@@ -136,7 +125,7 @@ impl Target {
             confirmed: false,
             reported: false,
             matched: Match::None,
-            history: VecDeque::new(),
+            history: History::default(),
             residual: Residual::default(),
             last_error: None,
             evidence: 0.0,
@@ -192,7 +181,7 @@ impl Target {
     }
 
     /// What it looks like, learnt from strong updates.
-    pub fn looks(&self) -> Option<&Looks> {
+    pub fn looks(&self) -> Option<&LearntLooks> {
         self.looks.as_deref().filter(|_| self.has_looks)
     }
 
@@ -203,10 +192,10 @@ impl Target {
 
     /// Learns what it looks like; `momentum` is the share of what was known.
     pub fn learn_looks(&mut self, seen: &Looks, momentum: f64) {
-        let looks = self.looks.get_or_insert_with(|| Box::new(Looks::NONE));
+        let looks = self.looks.get_or_insert_with(|| Box::new(LearntLooks::NONE));
         match self.has_looks {
             true => looks.blend(seen, momentum),
-            false => (**looks).clone_from(seen),
+            false => **looks = LearntLooks::new(seen),
         }
         self.has_looks = true;
     }
@@ -240,9 +229,7 @@ impl Target {
     pub fn follow_camera(&mut self, motion: &CameraMotion) {
         self.state = motion.apply_state(&self.state);
         self.velocity = motion.apply_velocity(&self.velocity);
-        for observation in &mut self.history {
-            observation.state = motion.apply_state(&observation.state);
-        }
+        self.history.follow_camera(motion);
         for particle in &mut self.particles {
             particle.state = motion.apply_state(&particle.state);
             particle.velocity = motion.apply_velocity(&particle.velocity);
@@ -262,13 +249,12 @@ mod tests {
         let mut target = Target::born(&Detection { rect: before.into(), score: 0.9, ..Default::default() }, 0, 2);
         target.velocity = State::new(1.0, 3.0, 0.5, 0.25);
         target.particles[1].velocity = target.velocity;
-        target.history.push_back(Observation { time: 3.0, state: before });
+        target.history.push(3.0, &before, 1);
         target.follow_camera(&motion);
         let centre = |s: &State| (s.u, s.v);
         assert_eq!(centre(&target.state), (-33.0, 25.0));
         assert_eq!(centre(&target.velocity), (-6.0, 2.0));
-        assert_eq!(centre(&target.history[0].state), (-33.0, 25.0));
-        assert_eq!(target.history[0].time, 3.0);
+        assert_eq!(target.history.last(), Some(target.state));
         assert_eq!(centre(&target.particles[1].state), (-33.0, 25.0));
         assert_eq!(centre(&target.particles[1].velocity), (-6.0, 2.0));
         // Sizes grow with the columns of the map, whichever way it turns.

@@ -9,12 +9,12 @@
 //! Of an even number the median is the mean of the middle two. Only states that a detection confirmed take part, so a
 //! track that coasts does not learn from itself.
 
-use std::collections::VecDeque;
-
 use crate::geometry::State;
 
+use super::history::Observation;
+use super::median::{OrderKey, median_near};
 use super::parameters::{GenTrack2Parameters, RegressionLags};
-use super::target::{Observation, Target};
+use super::target::Target;
 
 /// States from which on the sparse lags are used.
 const SPARSE_FROM: usize = 12;
@@ -45,44 +45,49 @@ impl Reach {
 /// Buffers, shared by all targets: the slopes of each component, and keys to select by.
 #[derive(Clone, Debug, Default)]
 pub struct VelocityRegression {
-    slopes: [Vec<f64>; 4],
+    /// Times of the states, from the oldest on.
+    times: Vec<f32>,
+    slopes: [Vec<f32>; 4],
     keys: Vec<OrderKey>,
 }
 
 impl VelocityRegression {
     /// Adds the target's new state to its history and regresses its velocity.
     pub fn learn(&mut self, p: &GenTrack2Parameters, target: &mut Target, time: f64, reach: Reach) {
-        while target.history.len() >= reach.states {
-            target.history.pop_front();
-        }
-        // To the last one, not to the next power of two: histories are most of what a track takes.
-        target.history.reserve_exact(reach.states - target.history.len());
-        target.history.push_back(Observation { time, state: target.state });
+        target.history.push(time, &target.state, reach.states);
         let centre = p.slope_limit * target.state.diagonal();
         let (width, height) = (p.size_slope_limit * target.state.w, p.size_slope_limit * target.state.h);
-        let limits = State::new(centre, centre, width, height);
-        self.collect_slopes(target.history.make_contiguous(), p.regression_lags, reach.window, &limits);
+        let limits = [centre, centre, width, height].map(|x| x as f32);
+        self.collect_slopes(target.history.in_order(), p.regression_lags, reach.window, &limits);
         // From frame to frame few slopes come and go, so the velocity so far is near the middle.
         let before = [target.velocity.u, target.velocity.v, target.velocity.w, target.velocity.h];
-        let [u, v, w, h] = std::array::from_fn(|i| median_near(&self.slopes[i], before[i], &mut self.keys));
-        target.velocity = State::new(u, v, w, h) * trust(p, &target.history);
+        let middle = |i: usize| f64::from(median_near(&self.slopes[i], before[i] as f32, &mut self.keys));
+        let [u, v, w, h] = std::array::from_fn(middle);
+        let seen = self.times.last().map_or(0.0, |time| f64::from(*time));
+        target.velocity = State::new(u, v, w, h) * trust(p, seen);
     }
 
-    fn collect_slopes(&mut self, history: &[Observation], lags: RegressionLags, window: usize, limits: &State) {
+    fn collect_slopes(&mut self, history: &[Observation], lags: RegressionLags, window: usize, limits: &[f32; 4]) {
+        self.times.clear();
+        let mut time = 0.0;
+        for (index, observation) in history.iter().enumerate() {
+            time += if index > 0 { observation.since } else { 0.0 };
+            self.times.push(time);
+        }
         let lags = Lags::new(lags, window, history.len());
-        let pairs = || lags.iter().map(|lag| history.get(lag..).unwrap_or_default());
-        let most = pairs().map(<[_]>::len).sum();
+        let most = lags.iter().map(|lag| history.len().saturating_sub(lag)).sum();
         // Every slope is written, but the next one over it if it does not count: without a branch.
         self.slopes.iter_mut().for_each(|list| list.resize(most, 0.0));
-        let limits = [limits.u, limits.v, limits.w, limits.h];
         let mut counts = [0; 4];
-        for later in pairs() {
-            for (from, to) in history.iter().zip(later) {
-                let (rise, per_tick) = (to.state - from.state, 1.0 / (to.time - from.time));
-                let slopes = [rise.u * per_tick, rise.v * per_tick, rise.w * per_tick, rise.h * per_tick];
+        for lag in lags.iter() {
+            let (later, later_times) =
+                (history.get(lag..).unwrap_or_default(), self.times.get(lag..).unwrap_or_default());
+            for (((from, to), begin), end) in history.iter().zip(later).zip(&self.times).zip(later_times) {
+                let per_tick = 1.0 / (end - begin);
                 for i in 0..4 {
-                    self.slopes[i][counts[i]] = slopes[i];
-                    counts[i] += usize::from(slopes[i].abs() <= limits[i]);
+                    let slope = (to.state[i] - from.state[i]) * per_tick;
+                    self.slopes[i][counts[i]] = slope;
+                    counts[i] += usize::from(slope.abs() <= limits[i]);
                 }
             }
         }
@@ -90,10 +95,9 @@ impl VelocityRegression {
     }
 }
 
-/// The share of a regressed velocity that is believed: jitter of the boxes over a short time looks like speed.
-fn trust(p: &GenTrack2Parameters, history: &VecDeque<Observation>) -> f64 {
-    let (Some(first), Some(last)) = (history.front(), history.back()) else { return 0.0 };
-    let seen = last.time - first.time;
+/// The share of a velocity regressed over so many ticks that is believed: jitter of the boxes over a short time looks like
+/// speed.
+fn trust(p: &GenTrack2Parameters, seen: f64) -> f64 {
     if seen < p.velocity_doubt { (seen / p.velocity_doubt) * (seen / p.velocity_doubt) } else { 1.0 }
 }
 
@@ -115,122 +119,10 @@ impl Lags {
     }
 }
 
-/// A number as an integer of the same order: comparing integers is what makes selection fast.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct OrderKey(i64);
-
-impl From<f64> for OrderKey {
-    fn from(x: f64) -> Self {
-        let bits = x.to_bits() as i64;
-        Self(bits ^ ((bits >> 63) as u64 >> 1) as i64)
-    }
-}
-
-impl From<OrderKey> for f64 {
-    fn from(OrderKey(key): OrderKey) -> f64 {
-        // The transformation is its own inverse: it leaves the sign bit alone.
-        f64::from_bits((key ^ ((key >> 63) as u64 >> 1) as i64) as u64)
-    }
-}
-
-/// Steps from a guess to the median after which selection is quicker.
-const MOST_STEPS: usize = 4;
-
-/// The median as by [`median`], sought from a guess: the values on either side of it are counted, and if the middle is
-/// not there, it goes on to the next value.
-fn median_near(values: &[f64], guess: f64, keys: &mut Vec<OrderKey>) -> f64 {
-    if values.is_empty() {
-        return 0.0;
-    }
-    let (upper, even) = (values.len() / 2, values.len().is_multiple_of(2));
-    // A guess of -0 would pass for a slope of 0.
-    let mut at = guess + 0.0;
-    for _ in 0..MOST_STEPS {
-        let (less, not_more) = ranks(values, at);
-        if upper < less {
-            at = below(values, at);
-        } else if upper > not_more {
-            at = above(values, at);
-        } else if upper == not_more {
-            // The next value has this rank; the one before it may be here, or further down.
-            let next = above(values, at);
-            return match even {
-                false => next,
-                true if less < not_more => 0.5 * (at + next),
-                true => 0.5 * (below(values, at) + next),
-            };
-        } else if even && upper == less {
-            return 0.5 * (below(values, at) + at);
-        } else {
-            return at;
-        }
-    }
-    keys.clear();
-    keys.extend(values.iter().map(|x| OrderKey::from(*x)));
-    median(keys)
-}
-
-/// Loops in lanes are what a compiler vectorises.
-const LANES: usize = 4;
-
-/// How many values are less than one, and how many are not more.
-fn ranks(values: &[f64], at: f64) -> (usize, usize) {
-    let (mut less, mut not_more) = ([0u64; LANES], [0u64; LANES]);
-    let (chunks, rest) = values.as_chunks::<LANES>();
-    for chunk in chunks {
-        for lane in 0..LANES {
-            less[lane] += u64::from(chunk[lane] < at);
-            not_more[lane] += u64::from(chunk[lane] <= at);
-        }
-    }
-    for x in rest {
-        less[0] += u64::from(*x < at);
-        not_more[0] += u64::from(*x <= at);
-    }
-    (less.iter().sum::<u64>() as usize, not_more.iter().sum::<u64>() as usize)
-}
-
-/// The largest value that is less.
-fn below(values: &[f64], at: f64) -> f64 {
-    nearest(values, f64::NEG_INFINITY, |best, x| if x < at && x > best { x } else { best })
-}
-
-/// The smallest value that is more.
-fn above(values: &[f64], at: f64) -> f64 {
-    nearest(values, f64::INFINITY, |best, x| if x > at && x < best { x } else { best })
-}
-
-fn nearest(values: &[f64], none: f64, better: impl Fn(f64, f64) -> f64) -> f64 {
-    let mut best = [none; LANES];
-    let (chunks, rest) = values.as_chunks::<LANES>();
-    for chunk in chunks {
-        for lane in 0..LANES {
-            best[lane] = better(best[lane], chunk[lane]);
-        }
-    }
-    rest.iter().chain(&best).fold(none, |best, x| better(best, *x))
-}
-
-/// The median, the mean of the middle two for an even number, 0 for none. Reorders the values.
-pub fn median(values: &mut [OrderKey]) -> f64 {
-    if values.is_empty() {
-        return 0.0;
-    }
-    let middle = values.len() / 2;
-    let even = values.len().is_multiple_of(2);
-    let (lower, upper, _) = values.select_nth_unstable(middle);
-    let upper = f64::from(*upper);
-    match lower.iter().max().filter(|_| even) {
-        Some(lower) => 0.5 * (f64::from(*lower) + upper),
-        None => upper,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::frame::Detection;
-    use proptest::prelude::*;
 
     fn regress(p: &GenTrack2Parameters, track: &[(f64, f64)]) -> State {
         let mut target = Target::born(&Detection::new(0.0, 0.0, 30.0, 40.0, 0.9), 0, 1);
@@ -261,28 +153,6 @@ mod tests {
         // u = 0, 1, 3, 6, 10: slopes 1, 2, 3, 4: (2 + 3) / 2.
         let track = [(0.0, 0.0), (1.0, 1.0), (2.0, 3.0), (3.0, 6.0), (4.0, 10.0)];
         assert_eq!(regress(&all(10, 1), &track).u, 2.5);
-    }
-
-    #[test]
-    fn order_keys_order_like_their_numbers_and_give_them_back() {
-        let sorted = [f64::NEG_INFINITY, -2.5, -1e-300, 0.0, 1e-300, 1.0, 3.75];
-        for pair in sorted.windows(2) {
-            assert!(OrderKey::from(pair[0]) < OrderKey::from(pair[1]));
-            assert_eq!(f64::from(OrderKey::from(pair[0])), pair[0]);
-        }
-    }
-
-    proptest! {
-        #[test]
-        fn the_median_is_the_same_from_any_guess(
-            tenths in proptest::collection::vec(-20i32..20, 0..70),
-            guess in -30i32..30,
-        ) {
-            let values: Vec<f64> = tenths.iter().map(|x| *x as f64 / 10.0).collect();
-            let mut keys: Vec<OrderKey> = values.iter().map(|x| OrderKey::from(*x)).collect();
-            let found = median_near(&values, guess as f64 / 10.0, &mut Vec::new());
-            prop_assert_eq!(found.to_bits(), median(&mut keys).to_bits());
-        }
     }
 
     #[test]

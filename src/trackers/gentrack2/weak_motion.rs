@@ -5,9 +5,9 @@
 use crate::geometry::State;
 use crate::track::WeakMove;
 
+use super::median::{OrderKey, median};
 use super::parameters::{GenTrack2Parameters, WeakMotion};
 use super::target::Target;
-use super::velocity_regression::{OrderKey, median};
 
 /// A point or displacement of box centres.
 type Vector = (f64, f64);

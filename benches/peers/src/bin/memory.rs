@@ -4,7 +4,7 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicI64, Ordering};
 
-use gentrack2::{Algorithm, Config, Detection, Frame, Tracker};
+use gentrack2::{Algorithm, Config, Detection, Frame, ImageView, PixelFormat, Tracker};
 use scenes::{Canvas, Crowd, Video};
 
 static LIVE: AtomicI64 = AtomicI64::new(0);
@@ -31,10 +31,21 @@ static ALLOCATOR: Counting = Counting;
 
 /// People in a frame.
 const PEOPLE: usize = 1024;
+/// Pixels that a group of them takes.
+const GROUP: (usize, usize) = (4000, 2200);
+
+/// A picture with something to see everywhere, wide enough for so many groups.
+fn picture(groups: usize) -> Vec<u8> {
+    let pixels = GROUP.0 * groups * GROUP.1;
+    (0..pixels as u64).map(|i| (i.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 56) as u8).collect()
+}
 
 /// Live bytes of a tracker, and its live tracks, after it has seen so many groups of people stand still, one after the
 /// other: the more groups, the more tracks, while frames are of one size.
-fn bytes(algorithm: Algorithm, groups: usize) -> (f64, f64) {
+fn bytes(algorithm: Algorithm, groups: usize, images: bool) -> (f64, f64) {
+    let picture = if images { picture(groups) } else { Vec::new() };
+    let (width, height) = ((GROUP.0 * groups) as u32, GROUP.1 as u32);
+    let image = images.then(|| ImageView::new(&picture, width, height, 0, PixelFormat::Gray8).expect("it fits"));
     let before = LIVE.load(Ordering::Relaxed);
     let mut config = Config::of(algorithm);
     // Whoever was seen is remembered; every algorithm has one of these.
@@ -45,11 +56,11 @@ fn bytes(algorithm: Algorithm, groups: usize) -> (f64, f64) {
     let mut live = 0;
     for group in 0..groups {
         // Side by side, so that none overlaps another: only tracks differ.
-        let left = |i: usize| 60.0 * (i % 64) as f64 + 4000.0 * group as f64;
+        let left = |i: usize| 60.0 * (i % 64) as f64 + (GROUP.0 * group) as f64;
         let at = |i: usize| Detection::new(left(i), 130.0 * (i / 64) as f64, 40.0, 100.0, 0.9);
         let detections: Vec<Detection> = (0..PEOPLE).map(at).collect();
         for _ in 0..60 {
-            let output = tracker.step(&Frame::new(&detections)).expect("a valid frame");
+            let output = tracker.step(&Frame { image, ..Frame::new(&detections) }).expect("a valid frame");
             live = output.reported.len() + output.tentative.len() + output.lost.len();
         }
     }
@@ -58,9 +69,9 @@ fn bytes(algorithm: Algorithm, groups: usize) -> (f64, f64) {
 }
 
 /// Bytes that one more live track costs.
-fn bytes_per_track(algorithm: Algorithm) -> f64 {
+fn bytes_per_track(algorithm: Algorithm, images: bool) -> f64 {
     // Lists of tracks grow by doubling: counted where they have just been filled, at powers of two.
-    let ((few, few_tracks), (many, many_tracks)) = (bytes(algorithm, 1), bytes(algorithm, 4));
+    let [(few, few_tracks), (many, many_tracks)] = [1, 4].map(|groups| bytes(algorithm, groups, images));
     (many - few) / (many_tracks - few_tracks)
 }
 
@@ -88,7 +99,11 @@ fn main() {
     let video = Crowd::new(12, Canvas::Fixed, 1).video(1000);
     for &algorithm in Algorithm::ALL {
         eprintln!("memory of {}", algorithm.name());
-        println!("track_bytes.{} {:.0}", algorithm.name(), bytes_per_track(algorithm));
+        println!("track_bytes.{} {:.0}", algorithm.name(), bytes_per_track(algorithm, false));
+        if algorithm == Algorithm::GenTrack2 {
+            // The others do not look at images.
+            println!("looking_track_bytes.{} {:.0}", algorithm.name(), bytes_per_track(algorithm, true));
+        }
         println!("resident_growth_kib.{} {:.0}", algorithm.name(), resident_growth(algorithm, &video));
     }
 }
