@@ -17,11 +17,14 @@ def skip(*reason):
 
 
 def stamp_of(requirements):
-    """What a virtual environment with these is marked with: they, and the contents of the files among them."""
-    digest = hashlib.sha256(repr((requirements, sys.version_info[:2])).encode())
-    for path in filter(os.path.isfile, requirements):
-        with open(path, "rb") as file:
-            digest.update(file.read())
+    """What a virtual environment with these is marked with: they, or, of those that are files, the contents."""
+    digest = hashlib.sha256(repr(sys.version_info[:2]).encode())
+    for each in requirements:
+        if os.path.isfile(each):
+            with open(each, "rb") as file:
+                digest.update(file.read())
+        else:
+            digest.update(repr(each).encode())
     return digest.hexdigest()
 
 
