@@ -21,11 +21,14 @@ mkdir -p "$out"
 environment=$(tools/arm-rust.sh "$machine" "$out/rust")
 eval "$(echo "$environment" | sed 's/^/export /')"
 
-# An own target directory: cargo would build what runs at build time anew whenever the compiler changes.
-cmake -S . -B "$out/$machine" -DCMAKE_TOOLCHAIN_FILE="$(pwd)/cmake/$toolchain.cmake" -DCMAKE_BUILD_TYPE=Release \
-    -DGENTRACK2_CARGO_TARGET_DIR="$out/target" -DGENTRACK2_BUILD_EXAMPLES=OFF
-cmake --build "$out/$machine"
-ctest --test-dir "$out/$machine" --output-on-failure
+# In a copy of the sources: where this machine's things are built, cargo would build what runs at build time anew whenever
+# the compiler changes.
+here=$(cd "$build" && pwd)
+copy=$out/sources
+mkdir -p "$copy"
+find "$copy" -mindepth 1 -maxdepth 1 ! -name target ! -name build -exec rm -rf {} +
+git ls-files -z --cached --others --exclude-standard | tar -c --null -T - | tar -x -C "$copy"
+cd "$copy"
 
 if [ "$machine" = aarch64 ]; then
     # What docs/embedded.md tells a user.
@@ -36,13 +39,18 @@ if [ "$machine" = aarch64 ]; then
     readelf -h build/stage/usr/local/lib/libgentrack2.so | grep -q AArch64
 fi
 
+cmake -S . -B "$out/$machine" -DCMAKE_TOOLCHAIN_FILE="$(pwd)/cmake/$toolchain.cmake" -DCMAKE_BUILD_TYPE=Release \
+    -DGENTRACK2_BUILD_EXAMPLES=OFF
+cmake --build "$out/$machine"
+ctest --test-dir "$out/$machine" --output-on-failure
+
 # Without the measurement data, with which it would take long. What the tests need besides the library may be slow, and
 # is compiled sooner so.
-env -u GENTRACK2_SHARED cargo test --locked --target-dir "$out/target" --test conformance \
+env -u GENTRACK2_SHARED cargo test --locked --test conformance \
     --config 'profile.dev.package."*".opt-level=0'
 
 bits() { (cd tests/fixtures/oracles/synthetic && "$@" ./syn_a1 ./syn_a2 ./syn_a3 ./syn_a4 ./syn_b2 ./syn_b3 ./syn_b1); }
-bits "$(pwd)/$build/ctest/bits" >"$out/bits-here.txt"
+bits "$here/ctest/bits" >"$out/bits-here.txt"
 # shellcheck disable=SC2086 # the runner is several words
 eval "runner=\$CARGO_TARGET_$(echo "$CARGO_BUILD_TARGET" | tr 'a-z-' 'A-Z_')_RUNNER"
 bits $runner "$out/$machine/ctest/bits" >"$out/bits-$machine.txt"
