@@ -16,7 +16,7 @@ def measured(text):
     return {"step": {name: f"{float(value):.0f}" for name, value in steps},
             "growth": {name: dict(zip(OBJECTS, (f"{float(each):.0f}" for each in values.split(", "))))
                        for name, values in growth},
-            "memory": dict(re.findall(r"^\| (\w+): bytes per live track \| (\d+) B", text, re.M))}
+            "memory": dict(re.findall(r"^\| (\w+: bytes per live track[^|]*) \| (\d+) B", text, re.M))}
 
 
 def check(pages, text):
