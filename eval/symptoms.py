@@ -209,7 +209,9 @@ def main():
             for _, row in rows_of_all:
                 bench.sequence(row)
             measured = list(pool.map(bench.measure, [row for _, row in rows_of_all]))
-    except (work.Failed, setups_module.Missing) as error:
+    except setups_module.Missing as error:
+        environment.skip(error)
+    except work.Failed as error:
         sys.exit(str(error))
     tables = {name: table(name, [scores for (case, _), scores in zip(rows_of_all, measured) if case == name])
               for name in names}

@@ -6,9 +6,10 @@
 set -eu
 cd "$(dirname "$0")/.."
 
-build=$1
+mkdir -p "$1"
+build=$(cd "$1" && pwd)
 machine=$2
-out=$(pwd)/$build/arm
+out=$build/arm
 
 case $machine in
 aarch64) toolchain=aarch64-linux-gnu ;;
@@ -23,11 +24,13 @@ eval "$(echo "$environment" | sed 's/^/export /')"
 
 # In a copy of the sources: where this machine's things are built, cargo would build what runs at build time anew whenever
 # the compiler changes.
-here=$(cd "$build" && pwd)
 copy=$out/sources
 mkdir -p "$copy"
 find "$copy" -mindepth 1 -maxdepth 1 ! -name target ! -name build -exec rm -rf {} +
-git ls-files -z --cached --others --exclude-standard | tar -c --null -T - | tar -x -C "$copy"
+tar -cf "$out/sources.tar" --exclude=./.git --exclude=./target --exclude='./*/target' --exclude=./build --exclude=./out \
+    --exclude="./${build#"$(pwd)/"}" .
+tar -xf "$out/sources.tar" -C "$copy"
+rm "$out/sources.tar"
 cd "$copy"
 
 if [ "$machine" = aarch64 ]; then
@@ -50,7 +53,7 @@ env -u GENTRACK2_SHARED cargo test --locked --test conformance \
     --config 'profile.dev.package."*".opt-level=0'
 
 bits() { (cd tests/fixtures/oracles/synthetic && "$@" ./syn_a1 ./syn_a2 ./syn_a3 ./syn_a4 ./syn_b2 ./syn_b3 ./syn_b1); }
-bits "$here/ctest/bits" >"$out/bits-here.txt"
+bits "$build/ctest/bits" >"$out/bits-here.txt"
 # shellcheck disable=SC2086 # the runner is several words
 eval "runner=\$CARGO_TARGET_$(echo "$CARGO_BUILD_TARGET" | tr 'a-z-' 'A-Z_')_RUNNER"
 bits $runner "$out/$machine/ctest/bits" >"$out/bits-$machine.txt"

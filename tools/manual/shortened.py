@@ -28,10 +28,9 @@ def sequence(source, place):
 
 
 def copy(data, place):
-    """The directory `place` with what is in the directory of the data; made if it is not there."""
-    if not place.exists():
-        for collection in COLLECTIONS:
-            for source in sorted((data / collection).iterdir()):
-                if source.is_dir() and source.name not in LEFT_OUT:
-                    sequence(source, place / collection / source.name)
-    return place
+    """Makes the directory `place` of what there is of the data."""
+    place.mkdir()
+    for collection in COLLECTIONS:
+        for source in sorted(data.glob(f"{collection}/*/")):
+            if source.is_dir() and source.name not in LEFT_OUT:
+                sequence(source, place / collection / source.name)

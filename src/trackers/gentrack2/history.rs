@@ -1,7 +1,7 @@
 //! The states in which detections confirmed a target: what velocity is regressed from, and where it was last seen.
 //!
-//! They are most of what a track takes, so they are kept in single precision, as offsets from where the first of them
-//! was: however far from the origin of coordinates a scene is, they are as exact.
+//! They are most of what a track takes, so they are kept in single precision, as offsets from a place near by: however far
+//! from the origin of coordinates a scene is, and wherever target and camera go, they are as exact.
 
 use std::collections::VecDeque;
 
@@ -18,12 +18,15 @@ pub struct Observation {
     pub state: [f32; 4],
 }
 
+/// Diagonals of the box that a state may be from the origin: so far offsets are exact to a millionth of the box.
+const FARTHEST: f64 = 64.0;
+
 /// Observations, oldest first.
 #[derive(Clone, Debug, Default)]
 #[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct History {
     list: VecDeque<Observation>,
-    /// Centre of the first state since the history was empty.
+    /// What offsets are from: the centre of one of the states, moved along with the camera.
     origin: (f64, f64),
     /// Time of the last one in ticks.
     time: f64,
@@ -41,9 +44,21 @@ impl History {
         // To the last one, not to the next power of two.
         self.list.reserve_exact(most - self.list.len());
         let (u, v) = (state.u - self.origin.0, state.v - self.origin.1);
+        if u.abs().max(v.abs()) > FARTHEST * state.diagonal() {
+            self.move_origin(state);
+        }
+        let (u, v) = (state.u - self.origin.0, state.v - self.origin.1);
         let state = [u, v, state.w, state.h].map(|x| x as f32);
         self.list.push_back(Observation { since: (time - self.time) as f32, state });
         self.time = time;
+    }
+
+    fn move_origin(&mut self, to: &State) {
+        for Observation { state: [u, v, ..], .. } in &mut self.list {
+            *u = (f64::from(*u) + self.origin.0 - to.u) as f32;
+            *v = (f64::from(*v) + self.origin.1 - to.v) as f32;
+        }
+        self.origin = (to.u, to.v);
     }
 
     pub fn clear(&mut self) {
@@ -115,6 +130,26 @@ mod tests {
         history.push(1.0, &State::new(0.125, 0.0, 30.0, 40.0), 3);
         history.push(2.0, &State::new(0.375, 0.0, 30.0, 40.0), 3);
         assert_eq!(history.last(), Some(State::new(0.375, 0.0, 30.0, 40.0)));
+    }
+
+    #[test]
+    fn wherever_target_and_camera_go_offsets_stay_exact() {
+        // A camera that drifts inwards by a ten-thousandth a frame: what stood still long ago would be light years away.
+        let (scale, steps) = (1.0001, 400_000);
+        let zoom = CameraMotion([scale, 0.0, 960.0 * (1.0 - scale), 0.0, scale, 540.0 * (1.0 - scale)]);
+        let mut history = History::default();
+        let mut walked = History::default();
+        for step in 0..steps {
+            let side = 300.0 + (step % 7) as f64;
+            history.follow_camera(&zoom);
+            history.push(step as f64, &State::new(side, 540.0, 30.0, 40.0), 3);
+            walked.push(step as f64, &State::new(3.3 * step as f64, 0.0, 30.0, 40.0), 3);
+        }
+        let last = history.last().unwrap();
+        let side = 300.0 + ((steps - 1) % 7) as f64;
+        assert!((last.u - side).abs() < 1e-3 && (last.v - 540.0).abs() < 1e-3, "{last:?}");
+        let rises: Vec<f32> = walked.in_order().windows(2).map(|pair| pair[1].state[0] - pair[0].state[0]).collect();
+        assert!(rises.iter().all(|rise| (rise - 3.3).abs() < 1e-3), "{rises:?}");
     }
 
     #[test]

@@ -131,7 +131,8 @@ parameters! {
         /// Cosine similarity of HOG vectors that counts as no similarity: they are non-negative, so cosines crowd
         /// near 1. 0 is the raw cosine.
         hog_offset: f64 = 0.3, [0.0, 0.95], "", "";
-        /// Share of the old template when a strong track learns its new appearance.
+        /// Share of the old template when a strong track learns its new appearance. Templates have steps of 1/65535: beyond
+        /// 0.99 what changes them by less is lost, and with 0.9999 they hardly learn.
         template_momentum: f64 = 0.9, [0.0, 1.0], "", "";
         /// Weight of the unlikeness of looks in the association cost; 0 keeps appearance to the swarm, the paper's
         /// text.

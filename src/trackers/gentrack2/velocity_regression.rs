@@ -46,7 +46,7 @@ impl Reach {
 #[derive(Clone, Debug, Default)]
 pub struct VelocityRegression {
     /// Times of the states, from the oldest on.
-    times: Vec<f32>,
+    times: Vec<f64>,
     slopes: [Vec<f32>; 4],
     keys: Vec<OrderKey>,
 }
@@ -63,7 +63,7 @@ impl VelocityRegression {
         let before = [target.velocity.u, target.velocity.v, target.velocity.w, target.velocity.h];
         let middle = |i: usize| f64::from(median_near(&self.slopes[i], before[i] as f32, &mut self.keys));
         let [u, v, w, h] = std::array::from_fn(middle);
-        let seen = self.times.last().map_or(0.0, |time| f64::from(*time));
+        let seen = self.times.last().copied().unwrap_or(0.0);
         target.velocity = State::new(u, v, w, h) * trust(p, seen);
     }
 
@@ -71,7 +71,7 @@ impl VelocityRegression {
         self.times.clear();
         let mut time = 0.0;
         for (index, observation) in history.iter().enumerate() {
-            time += if index > 0 { observation.since } else { 0.0 };
+            time += if index > 0 { f64::from(observation.since) } else { 0.0 };
             self.times.push(time);
         }
         let lags = Lags::new(lags, window, history.len());
@@ -83,7 +83,7 @@ impl VelocityRegression {
             let (later, later_times) =
                 (history.get(lag..).unwrap_or_default(), self.times.get(lag..).unwrap_or_default());
             for (((from, to), begin), end) in history.iter().zip(later).zip(&self.times).zip(later_times) {
-                let per_tick = 1.0 / (end - begin);
+                let per_tick = 1.0 / (end - begin) as f32;
                 for i in 0..4 {
                     let slope = (to.state[i] - from.state[i]) * per_tick;
                     self.slopes[i][counts[i]] = slope;
