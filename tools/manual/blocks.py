@@ -177,10 +177,11 @@ class Runner:
             done = self.call(["sh", "-euc", command], cwd=place, env=environment)
             if done.returncode not in (0, own_venv.SKIPPED):
                 raise Wrong(f"{command} ended with {done.returncode}\n{shown(done)}")
-            skipped += [line for line in shown(done).splitlines() if "SKIPPED" in line or "is left out" in line]
+            said = (done.stdout + done.stderr).splitlines()
+            skipped += [line for line in said if "SKIPPED" in line or "is left out" in line]
         if skipped:
             raise Skipped("; ".join(dict.fromkeys(skipped)))
-        if "--write" in block.text and not any(newer(page, self.root) for page in (place / "docs").iterdir()):
+        if "--write" in block.text and not any(differs(page, self.root) for page in (place / "docs").iterdir()):
             raise Wrong("nothing was written")
 
     def python(self, block):
@@ -238,14 +239,10 @@ def words(text):
     return " ".join(text.split())
 
 
-def joined(text):
-    """The text with its continued lines made one."""
-    return re.sub(r"\\\n\s*", "", text)
-
-
 def commands(text):
     """The commands of a block, comments left out, continued lines joined."""
-    return [line for line in (re.sub(r"(^|\s)#.*", "", line).strip() for line in joined(text).split("\n")) if line]
+    joined = re.sub(r"\\\n\s*", "", text)
+    return [line for line in (re.sub(r"(^|\s)#.*", "", line).strip() for line in joined.split("\n")) if line]
 
 
 def prepare(scratch, root, build, pages):
@@ -269,9 +266,9 @@ def prepare(scratch, root, build, pages):
     (scratch / "out/vtest.avi").write_bytes((scratch / "walk.mp4").read_bytes())
 
 
-def newer(page, root):
+def differs(page, root):
     """Whether the copy of a page differs from the one that it was made from."""
-    return page.read_bytes() != (root / "docs" / page.name).read_bytes() if page.is_file() else False
+    return page.is_file() and page.read_bytes() != (root / "docs" / page.name).read_bytes()
 
 
 def copy_of_scripts(root, build, place):

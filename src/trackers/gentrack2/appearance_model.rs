@@ -35,9 +35,6 @@ pub struct LearntLooks {
 }
 
 impl LearntLooks {
-    /// Those of nothing.
-    pub const NONE: LearntLooks = LearntLooks { shape: [0; DESCRIPTOR_LEN], tones: [0; TONES_LEN] };
-
     pub fn new(seen: &Looks) -> Self {
         Self { shape: packed(&seen.shape), tones: packed(&seen.tones) }
     }

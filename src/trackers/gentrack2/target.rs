@@ -192,10 +192,10 @@ impl Target {
 
     /// Learns what it looks like; `momentum` is the share of what was known.
     pub fn learn_looks(&mut self, seen: &Looks, momentum: f64) {
-        let looks = self.looks.get_or_insert_with(|| Box::new(LearntLooks::NONE));
-        match self.has_looks {
-            true => looks.blend(seen, momentum),
-            false => **looks = LearntLooks::new(seen),
+        match &mut self.looks {
+            Some(looks) if self.has_looks => looks.blend(seen, momentum),
+            Some(looks) => **looks = LearntLooks::new(seen),
+            none => *none = Some(Box::new(LearntLooks::new(seen))),
         }
         self.has_looks = true;
     }
