@@ -8,6 +8,7 @@
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
+use crate::buffers::refill;
 use crate::faults::{self, Stage};
 
 /// A pair that may be matched, and its price.
@@ -236,12 +237,6 @@ impl Assignment {
 enum End {
     Column(u32),
     Row(u32),
-}
-
-/// Sets a buffer to so many equal values.
-pub(crate) fn refill<T: Copy>(buffer: &mut Vec<T>, length: usize, value: T) {
-    buffer.clear();
-    buffer.resize(length, value);
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ mod grid;
 mod intervals;
 mod window;
 
-use crate::assignment::refill;
+use crate::buffers::{self, refill};
 use crate::faults::{self, Stage};
 use crate::geometry::Rect;
 
@@ -124,10 +124,8 @@ impl OverlapSweep {
     ) -> OverlappingPairs<'_> {
         let mut boxes = std::mem::take(&mut self.boxes);
         let [a, b] = &mut boxes;
-        a.clear();
-        a.extend(rows);
-        b.clear();
-        b.extend(columns);
+        buffers::collect(a, rows);
+        buffers::collect(b, columns);
         self.pairs(a, b);
         self.boxes = boxes;
         OverlappingPairs { pairs: &self.pairs, rows: &self.boxes[0], columns: &self.boxes[1] }

@@ -25,6 +25,7 @@
 
 pub mod appearance;
 pub mod assignment;
+mod buffers;
 pub mod candidates;
 pub mod classes;
 pub mod config;

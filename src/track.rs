@@ -1,5 +1,6 @@
 //! What comes back from a step.
 
+use crate::buffers;
 use crate::faults::{self, Stage};
 use crate::geometry::{Rect, State};
 
@@ -133,9 +134,9 @@ impl Output {
             self.track_of_detection[row] = track.id;
         }
         match track.state {
-            _ if reported => self.reported.push(track),
-            TrackState::Lost => self.lost.push(track),
-            TrackState::Tentative | TrackState::Confirmed => self.tentative.push(track),
+            _ if reported => buffers::push(&mut self.reported, track),
+            TrackState::Lost => buffers::push(&mut self.lost, track),
+            TrackState::Tentative | TrackState::Confirmed => buffers::push(&mut self.tentative, track),
         }
     }
 }

@@ -4,6 +4,7 @@ use super::TrackingAlgorithm;
 use super::life::{Life, SMALLEST, presentable, presentable_velocity};
 use super::sort_family::{FullAssociation, Run, list_and_remove};
 use crate::assignment::UNMATCHED;
+use crate::buffers;
 use crate::error::Error;
 use crate::faults::{self, Stage};
 use crate::frame::{Detection, Frame};
@@ -114,11 +115,14 @@ impl Sort {
         let left = self.rows.iter().zip(self.association.partners()).filter(|(_, t)| **t == UNMATCHED);
         for (&row, _) in left.take(room) {
             let detection = &frame.detections[row as usize];
-            self.tracks.push(SortTrack {
-                life: Life::begin(context.ids.take(), row, detection),
-                run: Run::default(),
-                filter: AreaRatio::new(&measure(detection)),
-            });
+            buffers::push(
+                &mut self.tracks,
+                SortTrack {
+                    life: Life::begin(context.ids.take(), row, detection),
+                    run: Run::default(),
+                    filter: AreaRatio::new(&measure(detection)),
+                },
+            );
         }
     }
 }

@@ -11,6 +11,7 @@ pub use parameters::*;
 use super::TrackingAlgorithm;
 use super::overlaps::Extent;
 use super::pairing::Pairing;
+use crate::buffers;
 use crate::embedding::{MeanEmbedding, UnitRows};
 use crate::faults::{self, Stage};
 use crate::frame::Frame;
@@ -182,7 +183,7 @@ impl ConfTrack {
             if let Some(seen) = work.embeddings.row(row as usize).filter(|_| is_high(row)) {
                 track.embedding.learn(seen, p.feature_momentum);
             }
-            self.tracks.push(track);
+            buffers::push(&mut self.tracks, track);
         }
     }
 }

@@ -11,6 +11,7 @@ use super::life::{Life, SMALLEST, is_beyond, presentable, presentable_velocity};
 use super::overlaps::Extent;
 use super::pairing::Pairing;
 use crate::assignment::Edge;
+use crate::buffers;
 use crate::embedding::{Gallery, SpareGalleries, UnitRows};
 use crate::faults::{self, Stage};
 use crate::frame::{Detection, Frame};
@@ -205,7 +206,7 @@ impl DeepSort {
                 missed: 0.0,
             };
             track.learn(embeddings.row(row as usize), &self.parameters, spare);
-            self.tracks.push(track);
+            buffers::push(&mut self.tracks, track);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Covering: how much of a weak track lies behind tracks that have a detection in this frame. Behind another target
 //! the detector cannot see it, so a miss says little about whether it is still there.
 
+use crate::buffers::refill;
 use crate::candidates::OverlapSweep;
 use crate::geometry::Rect;
 
@@ -21,8 +22,7 @@ impl Covering {
             targets.iter().map(chosen)
         };
         let found = sweep.between(boxes(false), boxes(true));
-        self.shares.clear();
-        self.shares.resize(targets.len(), 0.0);
+        refill(&mut self.shares, targets.len(), 0.0);
         for &(weak, strong) in found.pairs {
             let (own, cover) = (&found.rows[weak as usize], &found.columns[strong as usize]);
             let share = &mut self.shares[weak as usize];

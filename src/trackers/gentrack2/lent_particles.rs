@@ -4,6 +4,7 @@
 use std::ops::Range;
 use std::sync::{Mutex, OnceLock, PoisonError};
 
+use crate::buffers::make_room;
 use crate::geometry::Rect;
 use crate::track::Particle;
 
@@ -51,6 +52,8 @@ impl List {
     fn fill(&mut self, targets: &[Target]) {
         self.owners.clear();
         self.particles.clear();
+        make_room(&mut self.owners, targets.len());
+        make_room(&mut self.particles, targets.iter().map(|t| t.particles.len()).sum());
         for target in targets {
             let start = self.particles.len();
             self.particles.extend(target.particles.iter().map(|s| Particle {

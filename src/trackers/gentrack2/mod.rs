@@ -46,6 +46,7 @@ mod whiteness;
 
 pub use parameters::*;
 
+use crate::buffers;
 use crate::candidates::OverlapSweep;
 use crate::classes::ClassRule;
 use crate::faults::{self, Stage};
@@ -165,11 +166,9 @@ impl GenTrack2 {
     fn sample_particles(&mut self, frame: &Frame<'_>, ticks: f64) {
         let (p, work) = (&self.parameters, &mut self.work);
         let targets = &mut self.memory.targets;
-        work.states.clear();
-        work.states.extend(targets.iter().map(|t| t.state));
+        buffers::collect(&mut work.states, targets.iter().map(|t| t.state));
         work.neighbours.search(&mut work.sweep, &work.states, p.neighbour_radius, |_| true);
-        work.predictions.clear();
-        work.predictions.extend(targets.iter().map(|t| (t.predicted, t.velocity)));
+        buffers::collect(&mut work.predictions, targets.iter().map(|t| (t.predicted, t.velocity)));
         for (index, target) in targets.iter_mut().enumerate().filter(|(_, target)| !target.dormant) {
             faults::point(Stage::Particles);
             resampling::refill(target, p.particles as usize);
@@ -306,7 +305,7 @@ impl GenTrack2 {
             strong_update::weigh_evidence(p, &mut target);
             target.confirmed |= context.detector_frames == 1;
             work.learn(p, &mut target, index as usize, frame, memory.time, ticks);
-            memory.targets.push(target);
+            buffers::push(&mut memory.targets, target);
         }
     }
 

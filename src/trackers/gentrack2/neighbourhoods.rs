@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::buffers::{self, make_room};
 use crate::track::{NeighbourMotion, Neighbourhood, WeakMove};
 
 use super::TICKS_PER_SECOND;
@@ -45,10 +46,11 @@ impl Neighbourhoods {
             all.filter(move |t| t.is_strong() == strong).map(|t| t.life.id)
         };
         let start = self.ids.len();
+        make_room(&mut self.ids, start + neighbours.len());
         self.ids.extend(of_kind(true));
         let trusted_count = self.ids.len() - start;
         self.ids.extend(of_kind(false));
-        self.rows.push(Row {
+        let row = Row {
             owner: targets[index].life.id,
             ids: start..self.ids.len(),
             trusted: trusted_count,
@@ -58,7 +60,8 @@ impl Neighbourhoods {
                 velocity: (t.velocity.0 * TICKS_PER_SECOND, t.velocity.1 * TICKS_PER_SECOND),
             }),
             rule,
-        });
+        };
+        buffers::push(&mut self.rows, row);
     }
 
     /// What moved the track `id`; empty for one that was not noted.

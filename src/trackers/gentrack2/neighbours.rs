@@ -1,5 +1,6 @@
 //! Neighbour search `Psi<(K, X), epsilon_nei>`: the targets within a distance that adapts to the size of the box.
 
+use crate::buffers;
 use crate::candidates::OverlapSweep;
 use crate::geometry::{Rect, State};
 
@@ -27,16 +28,16 @@ impl Neighbours {
         self.list.clear();
         let mut at = 0;
         for (i, state) in states.iter().enumerate() {
-            self.first.push(self.list.len() as u32);
+            buffers::push(&mut self.first, self.list.len() as u32);
             let limit = radius * state.diagonal();
             while let Some(&(_, j)) = pairs.get(at).filter(|(row, _)| *row as usize == i) {
                 if j as usize != i && state.distance(&states[j as usize]) < limit {
-                    self.list.push(j);
+                    buffers::push(&mut self.list, j);
                 }
                 at += 1;
             }
         }
-        self.first.push(self.list.len() as u32);
+        buffers::push(&mut self.first, self.list.len() as u32);
     }
 
     /// The neighbours of target `index`, ascending.

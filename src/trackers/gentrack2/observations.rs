@@ -2,6 +2,7 @@
 //! caller's, with what they look like.
 
 use crate::appearance::HogWorkspace;
+use crate::buffers::{self, make_room};
 use crate::candidates::OverlapSweep;
 use crate::classes::ClassRule;
 use crate::embedding::UnitRows;
@@ -74,8 +75,7 @@ impl Observations {
 
     /// Sets `crowd` of all.
     pub fn measure_crowd(&mut self, rule: ClassRule) {
-        self.boxes.clear();
-        self.boxes.extend(self.list.iter().map(|o| o.detection.rect));
+        buffers::collect(&mut self.boxes, self.list.iter().map(|o| o.detection.rect));
         for &(a, b) in self.sweep.pairs(&self.boxes, &self.boxes) {
             let (one, other) = (self.list[a as usize].detection, self.list[b as usize].detection);
             if a != b && other.score > SURE && rule.allows(one.class_id, other.class_id) {
@@ -103,6 +103,7 @@ impl Observations {
     /// What detection `index` looks like, worked out when first asked for.
     pub fn looks(&mut self, index: usize, image: Option<&ImageView<'_>>, hog: &mut HogWorkspace) -> Option<&Looks> {
         if self.looks.len() <= index {
+            make_room(&mut self.looks, self.list.len());
             self.looks.resize(self.list.len(), Looks::NONE);
         }
         let (observed, looks) = (&mut self.list[index], &mut self.looks[index]);

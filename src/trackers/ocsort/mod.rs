@@ -19,6 +19,7 @@ use super::TrackingAlgorithm;
 use super::life::SMALLEST;
 use super::sort_family::{Extra, FullAssociation, list_and_remove};
 use crate::assignment::UNMATCHED;
+use crate::buffers;
 use crate::faults::{self, Stage};
 use crate::frame::{Detection, Frame};
 use crate::geometry::Rect;
@@ -204,7 +205,7 @@ impl OcSort {
     fn start_tracks(&mut self, detections: &[Detection], context: &mut StepContext<'_>) {
         let room = context.max_tracks.saturating_sub(self.tracks.len());
         for &row in self.work.high.iter().take(room) {
-            self.tracks.push(ObservedTrack::born(context.ids.take(), row, &detections[row as usize]));
+            buffers::push(&mut self.tracks, ObservedTrack::born(context.ids.take(), row, &detections[row as usize]));
         }
     }
 }

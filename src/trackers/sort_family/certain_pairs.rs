@@ -23,7 +23,8 @@
 use super::dominant_pairs::CLEAR;
 use super::numbering;
 use super::valued::Valued;
-use crate::assignment::{Assignment, Edge, UNMATCHED, refill};
+use crate::assignment::{Assignment, Edge, UNMATCHED};
+use crate::buffers::refill;
 
 /// Tests after which nothing is certain. A scene needs three or four.
 const MOST_TESTS: usize = 12;

@@ -7,7 +7,8 @@
 //! assignment. Its members are taken then, and others may be without alternatives.
 
 use super::valued::Valued;
-use crate::assignment::{UNMATCHED, refill};
+use crate::assignment::UNMATCHED;
+use crate::buffers::refill;
 
 /// By how much a pair must be better than its alternatives: far more than rounding, far less than any overlap.
 pub const CLEAR: f64 = 1e-9;

@@ -7,7 +7,8 @@
 //! at once ([`DominantPairs`]) or by solving ([`CertainPairs`]), and only if some do not are those left over compared
 //! ([`OpenPairs`]).
 
-use crate::assignment::{Assignment, Edge, UNMATCHED, refill};
+use crate::assignment::{Assignment, Edge, UNMATCHED};
+use crate::buffers::refill;
 use crate::geometry::Rect;
 use crate::trackers::overlaps::{Extent, Overlap, Overlaps, fill_edges};
 

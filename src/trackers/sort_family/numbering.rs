@@ -1,6 +1,7 @@
 //! Which columns are still to be had, and their numbers among these.
 
-use crate::assignment::{UNMATCHED, refill};
+use crate::assignment::UNMATCHED;
+use crate::buffers::refill;
 
 /// What a column has for a number that is another row's.
 pub const TAKEN: u32 = UNMATCHED - 1;

@@ -14,6 +14,7 @@ mod parameters;
 pub use cost::Looks;
 pub(super) use parameters::two_round_parameters;
 
+use crate::buffers;
 use crate::embedding::{MeanEmbedding, UnitRows};
 use crate::faults::{self, Stage};
 use crate::frame::Frame;
@@ -232,7 +233,7 @@ impl<F: BoxFilter> TwoRound<F> {
             let mut member = Member::born(context.ids.take(), row, detection, self.now, embedding);
             member.activated = context.detector_frames == 1;
             member.learn(self.work.embeddings.row(row as usize), self.rules.momentum);
-            self.members.push(member);
+            buffers::push(&mut self.members, member);
         }
     }
 

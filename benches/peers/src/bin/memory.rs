@@ -29,8 +29,9 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// People in a frame.
+/// People in a frame, each of whom is then remembered, in so many frames one after the other.
 const PEOPLE: usize = 1024;
+const GROUPS: usize = 5;
 /// Pixels that a group of them takes.
 const GROUP: (usize, usize) = (4000, 2200);
 
@@ -40,12 +41,14 @@ fn picture(groups: usize) -> Vec<u8> {
     (0..pixels as u64).map(|i| (i.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 56) as u8).collect()
 }
 
-/// Live bytes of a tracker, and its live tracks, after it has seen so many groups of people stand still, one after the
-/// other: the more groups, the more tracks, while frames are of one size.
-fn bytes(algorithm: Algorithm, groups: usize, images: bool) -> (f64, f64) {
+/// Live bytes of a tracker after each of so many groups of people who stand still, one group after the other: the more
+/// groups, the more tracks, while frames are of one size.
+fn live_bytes(algorithm: Algorithm, groups: usize, images: bool) -> Vec<f64> {
     let picture = if images { picture(groups) } else { Vec::new() };
     let (width, height) = ((GROUP.0 * groups) as u32, GROUP.1 as u32);
     let image = images.then(|| ImageView::new(&picture, width, height, 0, PixelFormat::Gray8).expect("it fits"));
+    let mut detections = Vec::with_capacity(PEOPLE);
+    let mut readings = Vec::with_capacity(groups);
     let before = LIVE.load(Ordering::Relaxed);
     let mut config = Config::of(algorithm);
     // Whoever was seen is remembered; every algorithm has one of these.
@@ -53,26 +56,29 @@ fn bytes(algorithm: Algorithm, groups: usize, images: bool) -> (f64, f64) {
         let _ = config.set_text(key, "10000");
     }
     let mut tracker = Tracker::new(&config).expect("a long memory is fine");
-    let mut live = 0;
     for group in 0..groups {
         // Side by side, so that none overlaps another: only tracks differ.
         let left = |i: usize| 60.0 * (i % 64) as f64 + (GROUP.0 * group) as f64;
         let at = |i: usize| Detection::new(left(i), 130.0 * (i / 64) as f64, 40.0, 100.0, 0.9);
-        let detections: Vec<Detection> = (0..PEOPLE).map(at).collect();
+        detections.clear();
+        detections.extend((0..PEOPLE).map(at));
+        let mut live = 0;
         for _ in 0..60 {
             let output = tracker.step(&Frame { image, ..Frame::new(&detections) }).expect("a valid frame");
             live = output.reported.len() + output.tentative.len() + output.lost.len();
         }
+        assert_eq!(live, (group + 1) * PEOPLE, "{}: somebody was forgotten", algorithm.name());
+        readings.push((LIVE.load(Ordering::Relaxed) - before) as f64);
     }
-    assert_eq!(live, groups * PEOPLE, "{}: somebody was forgotten", algorithm.name());
-    ((LIVE.load(Ordering::Relaxed) - before) as f64, live as f64)
+    readings
 }
 
-/// Bytes that one more live track costs.
+/// Bytes that one more live track costs: the most of several numbers of tracks, as lists have more room left over at one
+/// than at another.
 fn bytes_per_track(algorithm: Algorithm, images: bool) -> f64 {
-    // Lists of tracks grow by doubling: counted where they have just been filled, at powers of two.
-    let [(few, few_tracks), (many, many_tracks)] = [1, 4].map(|groups| bytes(algorithm, groups, images));
-    (many - few) / (many_tracks - few_tracks)
+    let readings = live_bytes(algorithm, GROUPS, images);
+    let more = |groups: usize| (readings[groups - 1] - readings[0]) / ((groups - 1) * PEOPLE) as f64;
+    (2..=GROUPS).map(more).fold(0.0, f64::max)
 }
 
 /// Pages in memory, in KiB.
