@@ -36,6 +36,7 @@ WITHOUT = [
     ("confirmation", "confirm_hits=1,confirm_evidence=0"),
     ("evidence", "confirm_evidence=0"),
     ("reacquisition", "reacquire_reach=0"),
+    ("returns", "reacquire_returns=0,lost_cost_returns=0"),
     ("velocity-doubt", "velocity_doubt=0"),
     ("covered-pace", "covered_pace=1"),
     ("life-outside", "outside_pace=1000"),

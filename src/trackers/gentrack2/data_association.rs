@@ -30,6 +30,15 @@ pub struct Sight<'a, 'i> {
     pub hog: &'a mut HogWorkspace,
 }
 
+/// What the scene has taught.
+#[derive(Clone, Copy)]
+pub struct Scene<'a> {
+    /// How well it is predicted.
+    pub residual: &'a SceneResidual,
+    /// Cost per tick of a target's time without a match, beyond `lost_cost_after`.
+    pub lost_cost: f64,
+}
+
 impl Sight<'_, '_> {
     /// Whether looks take part in the cost of a target's pairs.
     fn speaks(&self, p: &GenTrack2Parameters, target: &Target) -> bool {
@@ -44,7 +53,7 @@ impl DataAssociation {
         p: &GenTrack2Parameters,
         targets: &mut [Target],
         observations: &mut Observations,
-        scene: &SceneResidual,
+        scene: Scene<'_>,
         rule: ClassRule,
         sight: &mut Sight<'_, '_>,
     ) {
@@ -82,7 +91,7 @@ pub fn latecomer(
     unseen: &[u32],
     observations: &mut Observations,
     index: usize,
-    scene: &SceneResidual,
+    scene: Scene<'_>,
     rule: ClassRule,
     sight: &mut Sight<'_, '_>,
 ) -> Option<usize> {
@@ -113,7 +122,7 @@ fn pair_cost(
     target: &Target,
     observations: &mut Observations,
     column: usize,
-    scene: &SceneResidual,
+    scene: Scene<'_>,
     rule: ClassRule,
     gate: f64,
     sight: &mut Sight<'_, '_>,
@@ -123,7 +132,7 @@ fn pair_cost(
         return None;
     }
     // Where looks speak, motion need not be taken less seriously.
-    let softness = if sight.speaks(p, target) { 1.0 } else { softness(p, target, scene) };
+    let softness = if sight.speaks(p, target) { 1.0 } else { softness(p, target, scene.residual) };
     let mut cost = motion_part(p, target, observed, scene, softness)?;
     cost += embedding_part(p, target, observations, column);
     // Looking is dear: not where the pair is out already.
@@ -144,7 +153,7 @@ fn motion_part(
     p: &GenTrack2Parameters,
     target: &Target,
     observed: &Observed,
-    scene: &SceneResidual,
+    scene: Scene<'_>,
     softness: f64,
 ) -> Option<f64> {
     let detection = &observed.detection;
@@ -155,7 +164,7 @@ fn motion_part(
     if overlap(p, &target.predicted, &observed.state) < p.min_iou {
         return None;
     }
-    let scale = distance_scale(p, target, scene) * 0.5 * (target.state.diagonal() + observed.state.diagonal());
+    let scale = distance_scale(p, target, scene.residual) * 0.5 * (target.state.diagonal() + observed.state.diagonal());
     let sum: f64 = target.particles.iter().map(|s| motion_cost(p, &s.state, &observed.state, scale)).sum();
     let motion = sum / target.particles.len() as f64;
     if detection.score < p.low_score && motion > p.low_score_gate {
@@ -163,7 +172,7 @@ fn motion_part(
     }
     let foot = (target.predicted.v + 0.5 * target.predicted.h) - (observed.state.v + 0.5 * observed.state.h);
     let foot = (foot.abs() / observed.state.h).min(1.0);
-    let lost = p.lost_cost * (target.missed - p.lost_cost_after).max(0.0);
+    let lost = scene.lost_cost * (target.missed - p.lost_cost_after).max(0.0);
     Some(
         total_cost(p, softness * motion, detection.score, target.penalty)
             + p.lambda_foot * foot
@@ -259,6 +268,11 @@ mod tests {
         }
     }
 
+    /// One that has taught nothing yet.
+    fn scene(p: &GenTrack2Parameters) -> Scene<'static> {
+        Scene { residual: &SceneResidual::UNKNOWN, lost_cost: p.lost_cost }
+    }
+
     fn target_at(state: State, particles: &[State]) -> Target {
         let mut target =
             Target::born(&Detection { rect: state.into(), score: 0.9, ..Default::default() }, 0, particles.len());
@@ -296,7 +310,7 @@ mod tests {
         let detections = [Detection { rect: state.into(), score: 0.8, ..Default::default() }];
         let mut observations = Observations::default();
         observations.prepare(&Frame::new(&detections), 0.0);
-        let cost = motion_part(&p, &target, observations.get(0), &SceneResidual::default(), 1.0).unwrap();
+        let cost = motion_part(&p, &target, observations.get(0), scene(&p), 1.0).unwrap();
         // .7 * .1 + .1 * .2 + .1 * .5 = .14.
         assert!((cost - 0.14).abs() < 1e-12, "{cost}");
     }
@@ -311,9 +325,9 @@ mod tests {
         let detections = [Detection { rect: taller.into(), score: 1.0, ..Default::default() }];
         let mut observations = Observations::default();
         observations.prepare(&Frame::new(&detections), 0.0);
-        let with = motion_part(&p, &target, observations.get(0), &SceneResidual::default(), 1.0).unwrap();
+        let with = motion_part(&p, &target, observations.get(0), scene(&p), 1.0).unwrap();
         let without = GenTrack2Parameters { lambda_foot: 0.0, ..p };
-        let without = motion_part(&without, &target, observations.get(0), &SceneResidual::default(), 1.0).unwrap();
+        let without = motion_part(&without, &target, observations.get(0), scene(&without), 1.0).unwrap();
         assert!((with - without - 0.2 * 4.0 / 48.0).abs() < 1e-12);
     }
 
@@ -343,7 +357,7 @@ mod tests {
             let mut observations = Observations::default();
             observations.prepare(&Frame::new(&detections), 0.0);
             observations.measure_crowd(ClassRule::default());
-            motion_part(p, target, observations.get(0), &SceneResidual::default(), 1.0).unwrap()
+            motion_part(p, target, observations.get(0), scene(p), 1.0).unwrap()
         };
         let p = GenTrack2Parameters { crowd_cost: 0.0, lost_cost: 0.0, doubt_score: 0.0, ..literal() };
         assert_eq!(cost(&p, &target), 0.0);
@@ -365,7 +379,7 @@ mod tests {
             let rect = State::new(u, 0.0, 30.0, 40.0).into();
             let mut observations = Observations::default();
             observations.prepare(&Frame::new(&[Detection { rect, score, ..Default::default() }]), 0.0);
-            motion_part(&p, target, observations.get(0), &SceneResidual::default(), 1.0)
+            motion_part(&p, target, observations.get(0), scene(&p), 1.0)
         };
         assert!(cost(&target, 2.0, 0.9).is_some());
         // IoU below .1: 26 px apart leaves 4*40 / (2400 - 160) = .07.
@@ -399,14 +413,7 @@ mod tests {
         observations.prepare(&Frame::new(&[at(3.0, 0.7), at(-3.0, 0.9)]), 0.0);
         let mut association = DataAssociation::default();
         let mut sight = Sight { image: None, hog: &mut HogWorkspace::default() };
-        association.associate(
-            &p,
-            &mut targets,
-            &mut observations,
-            &SceneResidual::default(),
-            ClassRule::default(),
-            &mut sight,
-        );
+        association.associate(&p, &mut targets, &mut observations, scene(&p), ClassRule::default(), &mut sight);
         let row = targets[0].matched.index().map(|i| observations.get(i).row);
         assert_eq!(row, Some(1));
         assert_eq!(association.taken, [true, false]);
@@ -427,8 +434,7 @@ mod tests {
         let mut find = |p: &GenTrack2Parameters, targets: &[Target]| {
             let slots: Vec<u32> = (0..targets.len() as u32).collect();
             let mut sight = Sight { image: None, hog: &mut HogWorkspace::default() };
-            let scene = SceneResidual::default();
-            latecomer(p, targets, &slots, &mut observations, 0, &scene, ClassRule::default(), &mut sight)
+            latecomer(p, targets, &slots, &mut observations, 0, scene(p), ClassRule::default(), &mut sight)
         };
         // At 12 px the IoU is 3/7 and the distance 12 of 50: .7 * 4/7 * .24 = .096; at 15 px .7 * 2/3 * .3 = .14; at
         // 18 px .7 * 3/4 * .36 = .189, beyond .15.
@@ -453,14 +459,7 @@ mod tests {
             let rect = State::new(u, 0.0, 30.0, 40.0).into();
             observations.prepare(&Frame::new(&[Detection { rect, score: 0.9, ..Default::default() }]), 0.0);
             let mut sight = Sight { image: None, hog: &mut HogWorkspace::default() };
-            association.associate(
-                &p,
-                &mut targets,
-                &mut observations,
-                &SceneResidual::default(),
-                ClassRule::default(),
-                &mut sight,
-            );
+            association.associate(&p, &mut targets, &mut observations, scene(&p), ClassRule::default(), &mut sight);
             targets[0].is_strong()
         };
         assert!(matched(45.0));

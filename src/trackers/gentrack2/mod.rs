@@ -37,6 +37,7 @@ mod removal;
 mod reporting;
 mod resampling;
 mod residual;
+mod returns;
 mod strong_update;
 mod swarm;
 mod target;
@@ -62,13 +63,14 @@ use crate::trackers::life::Life;
 use coasting::CoastRecord;
 use common_motion::CommonMotion;
 use covering::Covering;
-use data_association::{DataAssociation, Sight};
+use data_association::{DataAssociation, Scene, Sight};
 use lent_particles::LentParticles;
 use neighbourhoods::Neighbourhoods;
 use neighbours::Neighbours;
 use new_tracks::Births;
 use observations::Observations;
 use residual::SceneResidual;
+use returns::ReturnRecord;
 use swarm::{SEARCH_MARGIN, Swarm};
 use target::{Match, Target};
 use velocity_regression::{Reach, VelocityRegression};
@@ -96,6 +98,7 @@ struct Memory {
     scene: SceneResidual,
     whiteness: Whiteness,
     record: CoastRecord,
+    returns: ReturnRecord,
 }
 
 /// Buffers that are only there to be reused.
@@ -151,6 +154,7 @@ impl GenTrack2 {
         self.work.particles.recall();
         self.memory.time += ticks;
         self.memory.record.decay(ticks);
+        self.memory.returns.decay(ticks);
         for target in &mut self.memory.targets {
             if let Some(motion) = &frame.camera_motion {
                 target.follow_camera(motion);
@@ -189,7 +193,9 @@ impl GenTrack2 {
             work.observations.measure_crowd(rule);
         }
         let mut sight = Sight { image: frame.image.as_ref(), hog: &mut work.swarm.hog };
-        let (targets, scene) = (&mut self.memory.targets, &self.memory.scene);
+        let memory = &mut self.memory;
+        let scene = Scene { residual: &memory.scene, lost_cost: memory.returns.lost_cost(&self.parameters) };
+        let targets = &mut memory.targets;
         work.association.associate(&self.parameters, targets, &mut work.observations, scene, rule, &mut sight);
     }
 
@@ -204,6 +210,7 @@ impl GenTrack2 {
             let error = telling.then(|| residual::error(&target.predicted, &detected));
             if target.missed > 0.0 {
                 memory.record.found(target, &detection.rect);
+                memory.returns.found(target);
             }
             if let Some(error) = &error {
                 target.residual.learn(&mut memory.scene, error);
@@ -274,19 +281,21 @@ impl GenTrack2 {
             let (row, detection) = (observed.row, observed.detection);
             let mut sight = Sight { image: frame.image.as_ref(), hog: &mut work.swarm.hog };
             let (lost, seen, number) = (&memory.targets[..known], &mut work.observations, index as usize);
-            let scene = &memory.scene;
+            let scene = Scene { residual: &memory.scene, lost_cost: memory.returns.lost_cost(p) };
             if let Some(found) =
                 data_association::latecomer(p, lost, &work.unseen, seen, number, scene, rule, &mut sight)
             {
                 let target = &mut memory.targets[found];
                 memory.record.found(target, &detection.rect);
+                memory.returns.found(target);
                 target.matched = Match::Detection(index);
                 strong_update::update(p, target, row, &detection, &memory.whiteness.trust(p));
                 work.learn(p, target, number, frame, memory.time, ticks);
                 continue;
             }
             // Where nobody has looked for a lifetime, who was hidden can be anywhere, or gone.
-            let hidden = if since_detector <= p.max_missed { &work.unseen[..] } else { &[] };
+            let are_about = since_detector <= p.max_missed && memory.returns.is_worth_asking(p);
+            let hidden = if are_about { &work.unseen[..] } else { &[] };
             let found = reacquisition::find(p, lost, hidden, seen, number, rule, &mut sight)
                 .or_else(|| recognition::find(p, lost, seen, number, rule, &mut sight));
             if let Some(found) = found {
@@ -313,10 +322,13 @@ impl GenTrack2 {
     fn remove_expired(&mut self, frame_size: Option<(u32, u32)>, full: bool, output: &mut Output) {
         faults::point(Stage::Removal);
         let (p, work, memory) = (&self.parameters, &mut self.work, &mut self.memory);
-        let record = &mut memory.record;
+        let (record, returns) = (&mut memory.record, &mut memory.returns);
         let ended = memory.targets.extract_if(.., |target| {
             if !target.dormant && !removal::is_given_up(p, target) {
                 return false;
+            }
+            if !target.dormant {
+                returns.gone(target);
             }
             // Who went out of the image says nothing about predictions within.
             if !target.dormant && !removal::is_outside(target, frame_size) {

@@ -190,6 +190,9 @@ parameters! {
         crowd_cost: f64 = 0.05, [0.0, 2.0], "", "";
         /// Cost per tick of a track's time without a match, ...
         lost_cost: f64 = 0.0056, [0.0, 1.0], "per tick", "";
+        /// (it counts in full where half of the hidden targets come back, and changes with this power of the share that
+        /// does not; 0: everywhere the same) ...
+        lost_cost_returns: f64 = 0.5, [0.0, 4.0], "", "";
         /// ... beyond this time.
         lost_cost_after: f64 = 12.0, [0.0, 1e6], "ticks", "";
         /// Largest cost of an admissible pair, and the price of leaving a track unmatched.
@@ -221,6 +224,9 @@ parameters! {
         /// of them: it is if its distance from where they were last seen is within their speed, times this, times the
         /// time they were gone. 0 turns it off.
         reacquire_reach: f64 = 0.5, [0.0, 100.0], "", "";
+        /// Least share of this scene's hidden targets that come back where they are expected for others to be asked after:
+        /// where most do not, whoever appears is somebody else. 0: always.
+        reacquire_returns: f64 = 0.5, [0.0, 1.0], "", "";
         /// Matches in a row, the birth counted, from which a track is confirmed. Births in the first frame are
         /// confirmed at once.
         confirm_hits: i64 = 3, [1, 100], "hits", "";

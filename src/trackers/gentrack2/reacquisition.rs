@@ -58,8 +58,7 @@ pub fn find(
 /// How far the hidden target would have had to go to be at `detected`, relative to how far it can have got; `None` if
 /// that is too far or it is not one to be looked for.
 fn detour(p: &GenTrack2Parameters, target: &Target, detected: &State) -> Option<f64> {
-    let sought = target.confirmed && !target.is_strong() && target.covered >= HIDDEN && target.life.hits >= KNOWN_HITS;
-    let last = target.history.last().filter(|_| sought)?;
+    let last = target.history.last().filter(|_| is_hidden(target) && !target.is_strong())?;
     let growth = detected.h / last.h;
     if !(1.0 / LARGEST_GROWTH..=LARGEST_GROWTH).contains(&growth) {
         return None;
@@ -67,6 +66,11 @@ fn detour(p: &GenTrack2Parameters, target: &Target, detected: &State) -> Option<
     let reach = p.reacquire_reach * target.velocity.centre_norm() * target.missed + SLACK * last.diagonal();
     let gone = (*detected - last).centre_norm();
     (gone <= reach).then_some(gone / reach)
+}
+
+/// Whether a target that is known well went out of sight behind another.
+pub fn is_hidden(target: &Target) -> bool {
+    target.confirmed && target.covered >= HIDDEN && target.life.hits >= KNOWN_HITS
 }
 
 /// Whether nothing that is seen of a detection speaks against a target.

@@ -31,10 +31,14 @@ pub struct Residual {
 #[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
 pub struct SceneResidual(f64);
 
+impl SceneResidual {
+    /// 8 % of the diagonal: pedestrians under a good detector at 30 frames/s.
+    pub const UNKNOWN: Self = Self(0.08 * 0.08);
+}
+
 impl Default for SceneResidual {
     fn default() -> Self {
-        // 8 % of the diagonal: pedestrians under a good detector at 30 frames/s.
-        Self(0.08 * 0.08)
+        Self::UNKNOWN
     }
 }
 
