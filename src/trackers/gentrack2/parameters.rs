@@ -190,11 +190,11 @@ parameters! {
         crowd_cost: f64 = 0.05, [0.0, 2.0], "", "";
         /// Cost per tick of a track's time without a match, ...
         lost_cost: f64 = 0.0056, [0.0, 1.0], "per tick", "";
-        /// (it counts in full where half of the hidden targets come back, and changes with this power of the share that
-        /// does not; 0: everywhere the same) ...
-        lost_cost_returns: f64 = 0.5, [0.0, 4.0], "", "";
         /// ... beyond this time.
         lost_cost_after: f64 = 12.0, [0.0, 1e6], "ticks", "";
+        /// How much lost_cost follows the scene: it is multiplied by this power of twice the share of hidden targets that
+        /// do not come back. 0: not at all.
+        lost_cost_returns: f64 = 0.5, [0.0, 4.0], "", "";
         /// Largest cost of an admissible pair, and the price of leaving a track unmatched.
         cost_gate: f64 = 0.3, [0.0, 2.0], "", "";
         /// Smallest (height-aware) IoU of prediction and detection of an admissible pair. With 0 pairs that do not
@@ -224,8 +224,8 @@ parameters! {
         /// of them: it is if its distance from where they were last seen is within their speed, times this, times the
         /// time they were gone. 0 turns it off.
         reacquire_reach: f64 = 0.5, [0.0, 100.0], "", "";
-        /// Least share of this scene's hidden targets that come back where they are expected for others to be asked after:
-        /// where most do not, whoever appears is somebody else. 0: always.
+        /// That is asked only where at least this share of the scene's hidden targets comes back where they are expected:
+        /// where most do not, whoever appears is somebody else. 0: everywhere.
         reacquire_returns: f64 = 0.5, [0.0, 1.0], "", "";
         /// Matches in a row, the birth counted, from which a track is confirmed. Births in the first frame are
         /// confirmed at once.
