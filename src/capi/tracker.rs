@@ -13,6 +13,7 @@ use super::pointer::{require, start, store};
 use super::status::*;
 use super::track::*;
 use super::{structs, tables};
+use crate::buffers;
 use crate::faults::{self, Stage};
 use crate::frame::Detection;
 use crate::track::Output;
@@ -46,8 +47,7 @@ impl TrackLists {
             (&mut self.lost, &output.lost),
         ] {
             faults::point(Stage::Publishing);
-            to.clear();
-            to.extend(from.iter().map(gt2_track::from));
+            buffers::collect(to, from.iter().map(gt2_track::from));
         }
     }
 

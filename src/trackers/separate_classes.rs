@@ -2,8 +2,10 @@
 //! one source.
 
 use std::collections::BTreeMap;
+use std::mem::swap;
 
 use super::{AlgorithmParameters, TrackingAlgorithm};
+use crate::buffers::refill;
 use crate::error::Error;
 use crate::faults::{self, Stage};
 use crate::frame::{Detection, Embeddings, Frame};
@@ -24,7 +26,8 @@ pub struct SeparateClasses {
     order: Vec<u32>,
     detections: Vec<Detection>,
     embeddings: Vec<f32>,
-    part: Output,
+    /// Identities for these detections.
+    ids: Vec<u64>,
 }
 
 struct ClassTracker {
@@ -48,7 +51,7 @@ impl SeparateClasses {
             order: Vec::new(),
             detections: Vec::new(),
             embeddings: Vec::new(),
-            part: Output::default(),
+            ids: Vec::new(),
         })
     }
 
@@ -97,11 +100,23 @@ impl TrackingAlgorithm for SeparateClasses {
                 ids: &mut *context.ids,
                 ..*context
             };
-            self.part.begin(count);
-            tracker.inner.step(&of_class, &mut context, &mut self.part);
-            tracker.live = self.part.reported.len() + self.part.tentative.len() + self.part.lost.len();
+            // It adds its tracks to everybody's, with rows of its own.
+            refill(&mut self.ids, count, 0);
+            let listed = lists(output).map(|list| list.len());
+            swap(&mut self.ids, &mut output.track_of_detection);
+            tracker.inner.step(&of_class, &mut context, output);
+            swap(&mut self.ids, &mut output.track_of_detection);
+            tracker.live = 0;
+            for (list, listed) in lists(output).into_iter().zip(listed) {
+                faults::point(Stage::ClassMerge);
+                tracker.live += list.len() - listed;
+                let indices = list[listed..].iter_mut().filter_map(|track| track.detection_index.as_mut());
+                indices.for_each(|index| *index = rows[*index] as usize);
+            }
+            for (row, id) in rows.iter().zip(&self.ids) {
+                output.track_of_detection[*row as usize] = *id;
+            }
             live = others + tracker.live;
-            merge(&self.part, rows, output);
         }
         self.drop_idle();
     }
@@ -143,15 +158,6 @@ impl TrackingAlgorithm for SeparateClasses {
     }
 }
 
-/// Adds what became of the detections `rows` to the whole.
-fn merge(part: &Output, rows: &[u32], whole: &mut Output) {
-    faults::point(Stage::ClassMerge);
-    let in_frame = |track: &Track| Track { detection_index: track.detection_index.map(|i| rows[i] as usize), ..*track };
-    whole.reported.extend(part.reported.iter().map(in_frame));
-    whole.tentative.extend(part.tentative.iter().map(in_frame));
-    whole.lost.extend(part.lost.iter().map(in_frame));
-    whole.ended.extend_from_slice(&part.ended);
-    for (row, id) in rows.iter().zip(&part.track_of_detection) {
-        whole.track_of_detection[*row as usize] = *id;
-    }
+fn lists(output: &mut Output) -> [&mut Vec<Track>; 3] {
+    [&mut output.reported, &mut output.tentative, &mut output.lost]
 }

@@ -15,7 +15,6 @@ use super::target::{Match, Target};
 /// Buffers of the association.
 #[derive(Default)]
 pub struct DataAssociation {
-    sweep: OverlapSweep,
     solver: Assignment,
     edges: Vec<Edge>,
     /// Whether each detection was taken.
@@ -48,9 +47,11 @@ impl Sight<'_, '_> {
 
 impl DataAssociation {
     /// Matches targets with detections: sets `matched` of every target and fills `taken`.
+    #[allow(clippy::too_many_arguments)]
     pub fn associate(
         &mut self,
         p: &GenTrack2Parameters,
+        sweep: &mut OverlapSweep,
         targets: &mut [Target],
         observations: &mut Observations,
         scene: Scene<'_>,
@@ -62,7 +63,7 @@ impl DataAssociation {
         let rows = targets.iter().map(|t| widened(&t.predicted, reach));
         let columns = (0..observations.len()).map(|j| widened(&observations.get(j).state, reach));
         self.edges.clear();
-        for &(row, column) in self.sweep.between(rows, columns).pairs {
+        for &(row, column) in sweep.between(rows, columns).pairs {
             let target = &targets[row as usize];
             let cost = pair_cost(p, target, observations, column as usize, scene, rule, p.cost_gate, sight);
             self.edges.extend(cost.map(|cost| Edge { row, column, cost }));
@@ -413,7 +414,15 @@ mod tests {
         observations.prepare(&Frame::new(&[at(3.0, 0.7), at(-3.0, 0.9)]), 0.0);
         let mut association = DataAssociation::default();
         let mut sight = Sight { image: None, hog: &mut HogWorkspace::default() };
-        association.associate(&p, &mut targets, &mut observations, scene(&p), ClassRule::default(), &mut sight);
+        association.associate(
+            &p,
+            &mut OverlapSweep::default(),
+            &mut targets,
+            &mut observations,
+            scene(&p),
+            ClassRule::default(),
+            &mut sight,
+        );
         let row = targets[0].matched.index().map(|i| observations.get(i).row);
         assert_eq!(row, Some(1));
         assert_eq!(association.taken, [true, false]);
@@ -459,7 +468,15 @@ mod tests {
             let rect = State::new(u, 0.0, 30.0, 40.0).into();
             observations.prepare(&Frame::new(&[Detection { rect, score: 0.9, ..Default::default() }]), 0.0);
             let mut sight = Sight { image: None, hog: &mut HogWorkspace::default() };
-            association.associate(&p, &mut targets, &mut observations, scene(&p), ClassRule::default(), &mut sight);
+            association.associate(
+                &p,
+                &mut OverlapSweep::default(),
+                &mut targets,
+                &mut observations,
+                scene(&p),
+                ClassRule::default(),
+                &mut sight,
+            );
             targets[0].is_strong()
         };
         assert!(matched(45.0));

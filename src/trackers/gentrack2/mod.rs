@@ -121,7 +121,6 @@ struct Workspace {
     covering: Covering,
     common_motion: CommonMotion,
     states: Vec<State>,
-    predictions: Vec<(State, State)>,
     particles: LentParticles,
     neighbourhoods: Neighbourhoods,
 }
@@ -172,15 +171,21 @@ impl GenTrack2 {
         let targets = &mut self.memory.targets;
         buffers::collect(&mut work.states, targets.iter().map(|t| t.state));
         work.neighbours.search(&mut work.sweep, &work.states, p.neighbour_radius, |_| true);
-        buffers::collect(&mut work.predictions, targets.iter().map(|t| (t.predicted, t.velocity)));
-        for (index, target) in targets.iter_mut().enumerate().filter(|(_, target)| !target.dormant) {
+        for index in 0..targets.len() {
+            let (before, rest) = targets.split_at_mut(index);
+            let Some((target, after)) = rest.split_first_mut().filter(|(target, _)| !target.dormant) else { continue };
             faults::point(Stage::Particles);
             resampling::refill(target, p.particles as usize);
             particle_sampling::sample(p, target, ticks);
             let looking = p.lambda_s > 0.0
                 && target.has_looks()
                 && frame.image.is_some_and(|i| work.swarm.hog.prepare(&i, &target.predicted.into(), SEARCH_MARGIN));
-            let neighbours = work.neighbours.of(index).iter().map(|j| work.predictions[*j as usize]);
+            // Nobody is a neighbour of itself, and what is read of the others does not change here.
+            let neighbours = work.neighbours.of(index).iter().map(|j| match *j as usize {
+                j if j < index => &before[j],
+                j => &after[j - index - 1],
+            });
+            let neighbours = neighbours.map(|other| (other.predicted, other.velocity));
             work.swarm.guide(p, target, neighbours, ticks, looking);
             resampling::resample(p, target);
         }
@@ -196,7 +201,8 @@ impl GenTrack2 {
         let memory = &mut self.memory;
         let scene = Scene { residual: &memory.scene, lost_cost: memory.returns.lost_cost(&self.parameters) };
         let targets = &mut memory.targets;
-        work.association.associate(&self.parameters, targets, &mut work.observations, scene, rule, &mut sight);
+        let (sweep, observations) = (&mut work.sweep, &mut work.observations);
+        work.association.associate(&self.parameters, sweep, targets, observations, scene, rule, &mut sight);
     }
 
     fn update_strong(&mut self, frame: &Frame<'_>, ticks: f64) {
@@ -319,7 +325,7 @@ impl GenTrack2 {
     }
 
     /// `full` says that there is no room for new tracks: then nobody is only remembered.
-    fn remove_expired(&mut self, frame_size: Option<(u32, u32)>, full: bool, output: &mut Output) {
+    fn remove_expired(&mut self, frame_size: Option<(u32, u32)>, since_detector: f64, full: bool, output: &mut Output) {
         faults::point(Stage::Removal);
         let (p, work, memory) = (&self.parameters, &mut self.work, &mut self.memory);
         let (record, returns) = (&mut memory.record, &mut memory.returns);
@@ -327,7 +333,8 @@ impl GenTrack2 {
             if !target.dormant && !removal::is_given_up(p, target) {
                 return false;
             }
-            if !target.dormant {
+            // Where nobody has looked for a lifetime, nobody knows who came back meanwhile.
+            if !target.dormant && since_detector <= p.max_missed {
                 returns.gone(target);
             }
             // Who went out of the image says nothing about predictions within.
@@ -374,7 +381,7 @@ impl TrackingAlgorithm for GenTrack2 {
             self.start_tracks(frame, context, ticks, since_detector);
         }
         let full = self.memory.targets.len() >= context.max_tracks;
-        self.remove_expired(frame.size(), full, output);
+        self.remove_expired(frame.size(), since_detector, full, output);
         self.report(frame.size(), detector_ran, output);
     }
 

@@ -7,9 +7,9 @@ use super::parameters::GenTrack2Parameters;
 use super::reacquisition::is_hidden;
 use super::target::Target;
 
-/// Time in ticks for which a target must have been gone to count: who was missed for a moment comes back anywhere.
+/// Time without a match, in ticks, from which on a target counts: who was missed for a moment comes back anywhere.
 const GONE_FOR: f64 = 10.0;
-/// Returns assumed at the start, and the share of targets that did.
+/// Hidden targets assumed at the start, and the share of them that came back.
 const PRIOR: f64 = 10.0;
 const PRIOR_SHARE: f64 = 0.65;
 /// Share of the record that is kept per tick.
@@ -42,7 +42,7 @@ impl ReturnRecord {
         }
     }
 
-    /// Learns from a target that was given up.
+    /// Learns from a target that was given up, within the image or outside: who was left behind is gone as well.
     pub fn gone(&mut self, target: &Target) {
         if counts(target) {
             self.total += 1.0;
