@@ -44,6 +44,11 @@ pub struct IdSource {
 }
 
 impl IdSource {
+    /// Hands out this one first.
+    pub fn starting_at(first: u64) -> Self {
+        Self { next: first }
+    }
+
     /// The next identity, never given out before.
     pub fn take(&mut self) -> u64 {
         let id = self.next;
@@ -87,7 +92,7 @@ impl Tracker {
         Ok(Self {
             config: config.clone(),
             inner: config.parameters.build_for(config.common.class_policy)?,
-            ids: IdSource { next: config.common.first_id as u64 },
+            ids: IdSource::starting_at(config.common.first_id as u64),
             history: History::default(),
             detector: DetectorClock::default(),
             output: Output::default(),
@@ -161,7 +166,7 @@ impl Tracker {
     /// Forgets everything but the configuration: the next step is as the first of a new tracker.
     pub fn reset(&mut self) {
         self.inner.reset();
-        self.ids = IdSource { next: self.config.common.first_id as u64 };
+        self.ids = IdSource::starting_at(self.config.common.first_id as u64);
         self.history = History::default();
         self.detector = DetectorClock::default();
         self.output.begin(0);

@@ -416,3 +416,66 @@ impl TrackingAlgorithm for GenTrack2 {
         if weak { self.work.neighbourhoods.of(id) } else { Neighbourhood::default() }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::Detection;
+    use crate::tracker::IdSource;
+
+    struct Run {
+        tracker: GenTrack2,
+        ids: IdSource,
+        since_detector: f64,
+        detector_frames: u64,
+    }
+
+    impl Run {
+        /// A frame of ten pairs of people, the back one half hidden by the front one; `None` if the detector rested.
+        fn step(&mut self, people_per_pair: Option<usize>) {
+            let boxes = |pair: usize| {
+                let left = 100.0 * pair as f64;
+                [Detection::new(left, 10.0, 40.0, 100.0, 0.9), Detection::new(left + 15.0, 0.0, 40.0, 100.0, 0.9)]
+            };
+            let shown = people_per_pair.unwrap_or(0);
+            let detections: Vec<_> = (0..10).flat_map(|pair| boxes(pair).into_iter().take(shown)).collect();
+            let frame = Frame { detector_skipped: people_per_pair.is_none(), ..Frame::new(&detections) };
+            self.since_detector += 1.0;
+            self.detector_frames += u64::from(!frame.detector_skipped);
+            let mut context = StepContext {
+                elapsed: 1.0,
+                since_detector: self.since_detector,
+                detector_frames: self.detector_frames,
+                frame_rate: TICKS_PER_SECOND,
+                seed: 1,
+                max_tracks: 100,
+                classes: ClassRule::default(),
+                ids: &mut self.ids,
+            };
+            let mut output = Output::default();
+            output.begin(detections.len());
+            self.tracker.step(&frame, &mut context, &mut output);
+            if !frame.detector_skipped {
+                self.since_detector = 0.0;
+            }
+        }
+    }
+
+    fn after(frames: impl IntoIterator<Item = Option<usize>>) -> Memory {
+        let tracker = GenTrack2::new(GenTrack2Parameters::default());
+        let mut run = Run { tracker, ids: IdSource::starting_at(1), since_detector: 0.0, detector_frames: 0 };
+        frames.into_iter().for_each(|shown| run.step(shown));
+        run.tracker.memory
+    }
+
+    #[test]
+    fn who_was_given_up_after_a_rest_of_the_detector_is_not_known_to_be_gone() {
+        let seen = || std::iter::repeat_n(Some(2), 40);
+        let missed = after(seen().chain(std::iter::repeat_n(Some(1), 80)));
+        assert_eq!(missed.targets.len(), 10);
+        assert_ne!(missed.returns, ReturnRecord::default());
+        let rested = after(seen().chain(std::iter::repeat_n(None, 120)).chain([Some(1)]));
+        assert_eq!(rested.targets.len(), 10);
+        assert_eq!(rested.returns, ReturnRecord::default());
+    }
+}
