@@ -17,10 +17,15 @@ pub(crate) fn refill<T: Copy>(buffer: &mut Vec<T>, length: usize, value: T) {
     buffer.resize(length, value);
 }
 
-/// Sets a buffer to what comes. There has to be room for no more than is certain to come.
+/// Sets a buffer to what comes, of which it has to be known how many there are.
 pub(crate) fn collect<T>(buffer: &mut Vec<T>, items: impl Iterator<Item = T>) {
     buffer.clear();
-    make_room(buffer, items.size_hint().0);
+    append(buffer, items);
+}
+
+/// Adds what comes, of which it has to be known how many there are.
+pub(crate) fn append<T>(buffer: &mut Vec<T>, items: impl Iterator<Item = T>) {
+    make_room(buffer, buffer.len() + items.size_hint().0);
     buffer.extend(items);
 }
 

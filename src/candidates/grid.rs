@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use crate::buffers::{make_room, refill};
+use crate::buffers::{append, refill};
 use crate::geometry::Rect;
 
 use super::column::Column;
@@ -113,8 +113,7 @@ impl Grid {
             }
             let found = &mut self.found[..count];
             found.sort_unstable();
-            make_room(pairs, pairs.len() + found.len());
-            pairs.extend(found.iter().map(|column| (row, *column)));
+            append(pairs, found.iter().map(|column| (row, *column)));
         }
         true
     }

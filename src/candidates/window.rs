@@ -1,7 +1,7 @@
 //! Overlapping boxes of not too many: columns are put into bins along x, and each row looks at those in its reach. Rows
 //! come in order, so that nothing has to be sorted afterwards, and neither the search for the reach nor a test is a branch.
 
-use crate::buffers::{make_room, refill};
+use crate::buffers::{append, make_room, refill};
 use crate::geometry::Rect;
 
 use super::column::Column;
@@ -63,8 +63,7 @@ impl Window {
             if bins.is_some() {
                 found.sort_unstable();
             }
-            make_room(pairs, pairs.len() + found.len());
-            pairs.extend(found.iter().map(|column| (row, *column)));
+            append(pairs, found.iter().map(|column| (row, *column)));
         }
         true
     }

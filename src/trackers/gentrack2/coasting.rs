@@ -5,6 +5,7 @@
 
 use super::parameters::GenTrack2Parameters;
 use super::residual::SceneResidual;
+use super::running_share::RunningShare;
 use super::target::Target;
 
 /// Longest loss, in ticks, that counts as evidence in full.
@@ -12,8 +13,6 @@ const LONGEST: f64 = 10.0;
 /// Evidence assumed at the start, and the share of it that speaks for coasting.
 const PRIOR: f64 = 20.0;
 const PRIOR_SUCCESS: f64 = 0.6;
-/// Share of the evidence that is kept per tick.
-const MEMORY: f64 = 0.999;
 /// Growth of the residual that is feared per tick without a match.
 const GROWTH: f64 = 0.1;
 /// IoU of prediction and detection from which a prediction was right.
@@ -22,36 +21,30 @@ const RIGHT: f64 = 0.5;
 /// The scene's record of predictions of lost tracks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
-pub struct CoastRecord {
-    right: f64,
-    total: f64,
-}
+pub struct CoastRecord(RunningShare);
 
 impl CoastRecord {
     /// Forgets a little.
     pub fn decay(&mut self, ticks: f64) {
-        let kept = libm::pow(MEMORY, ticks);
-        self.right *= kept;
-        self.total *= kept;
+        self.0.decay(ticks);
     }
 
     /// Learns from a lost track that was found again, before its update.
     pub fn found(&mut self, target: &Target, detected: &crate::geometry::Rect) {
         let weight = target.missed.min(LONGEST);
         let right = crate::geometry::Rect::from(target.predicted).iou(detected) >= RIGHT;
-        self.total += weight;
-        self.right += if right { weight } else { 0.0 };
+        self.0.learn(weight, right);
     }
 
     /// Learns from a track that was never found again.
     pub fn gone(&mut self, p: &GenTrack2Parameters, target: &Target) {
         if target.life.hits as i64 >= p.coast_hits {
-            self.total += target.missed.min(LONGEST);
+            self.0.learn(target.missed.min(LONGEST), false);
         }
     }
 
     fn success(&self) -> f64 {
-        (PRIOR * PRIOR_SUCCESS + self.right) / (PRIOR + self.total)
+        self.0.value(PRIOR, PRIOR_SUCCESS)
     }
 }
 

@@ -10,6 +10,7 @@ use crate::image::ImageView;
 use super::observations::{Observations, Observed};
 use super::parameters::GenTrack2Parameters;
 use super::residual::SceneResidual;
+use super::returns::ReturnRecord;
 use super::target::{Match, Target};
 
 /// Buffers of the association.
@@ -36,6 +37,13 @@ pub struct Scene<'a> {
     pub residual: &'a SceneResidual,
     /// Cost per tick of a target's time without a match, beyond `lost_cost_after`.
     pub lost_cost: f64,
+}
+
+impl<'a> Scene<'a> {
+    /// What these records say.
+    pub fn new(p: &GenTrack2Parameters, residual: &'a SceneResidual, returns: &ReturnRecord) -> Self {
+        Self { residual, lost_cost: returns.lost_cost(p) }
+    }
 }
 
 impl Sight<'_, '_> {

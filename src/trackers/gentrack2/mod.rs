@@ -38,6 +38,7 @@ mod reporting;
 mod resampling;
 mod residual;
 mod returns;
+mod running_share;
 mod strong_update;
 mod swarm;
 mod target;
@@ -199,7 +200,7 @@ impl GenTrack2 {
         }
         let mut sight = Sight { image: frame.image.as_ref(), hog: &mut work.swarm.hog };
         let memory = &mut self.memory;
-        let scene = Scene { residual: &memory.scene, lost_cost: memory.returns.lost_cost(&self.parameters) };
+        let scene = Scene::new(&self.parameters, &memory.scene, &memory.returns);
         let targets = &mut memory.targets;
         let (sweep, observations) = (&mut work.sweep, &mut work.observations);
         work.association.associate(&self.parameters, sweep, targets, observations, scene, rule, &mut sight);
@@ -287,7 +288,7 @@ impl GenTrack2 {
             let (row, detection) = (observed.row, observed.detection);
             let mut sight = Sight { image: frame.image.as_ref(), hog: &mut work.swarm.hog };
             let (lost, seen, number) = (&memory.targets[..known], &mut work.observations, index as usize);
-            let scene = Scene { residual: &memory.scene, lost_cost: memory.returns.lost_cost(p) };
+            let scene = Scene::new(p, &memory.scene, &memory.returns);
             if let Some(found) =
                 data_association::latecomer(p, lost, &work.unseen, seen, number, scene, rule, &mut sight)
             {

@@ -5,6 +5,7 @@
 
 use super::parameters::GenTrack2Parameters;
 use super::reacquisition::is_hidden;
+use super::running_share::RunningShare;
 use super::target::Target;
 
 /// Time without a match, in ticks, from which on a target counts: who was missed for a moment comes back anywhere.
@@ -12,46 +13,38 @@ const GONE_FOR: f64 = 10.0;
 /// Hidden targets assumed at the start, and the share of them that came back.
 const PRIOR: f64 = 10.0;
 const PRIOR_SHARE: f64 = 0.65;
-/// Share of the record that is kept per tick.
-const MEMORY: f64 = 0.999;
 /// Share of targets that come back at which the cost of time without a match is as it stands.
 const USUAL_SHARE: f64 = 0.5;
 
 /// The scene's record of hidden targets.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "snapshot", derive(serde::Serialize, serde::Deserialize))]
-pub struct ReturnRecord {
-    back: f64,
-    total: f64,
-}
+pub struct ReturnRecord(RunningShare);
 
 impl ReturnRecord {
     /// Forgets a little.
     pub fn decay(&mut self, ticks: f64) {
-        let kept = libm::pow(MEMORY, ticks);
-        self.back *= kept;
-        self.total *= kept;
+        self.0.decay(ticks);
     }
 
     /// Learns from a target that was found where it was expected, before its update. Who was reacquired proves nothing:
     /// that it is the same one is only supposed, because many come back.
     pub fn found(&mut self, target: &Target) {
         if counts(target) {
-            self.back += 1.0;
-            self.total += 1.0;
+            self.0.learn(1.0, true);
         }
     }
 
     /// Learns from a target that was given up, within the image or outside: who was left behind is gone as well.
     pub fn gone(&mut self, target: &Target) {
         if counts(target) {
-            self.total += 1.0;
+            self.0.learn(1.0, false);
         }
     }
 
     /// Share of the hidden that come back.
     fn share(&self) -> f64 {
-        (PRIOR * PRIOR_SHARE + self.back) / (PRIOR + self.total)
+        self.0.value(PRIOR, PRIOR_SHARE)
     }
 
     /// Whether so many come back that one who appears near a hidden target is asked whether it is this one.
@@ -117,12 +110,18 @@ mod tests {
     #[test]
     fn time_without_a_match_costs_more_where_fewer_come_back() {
         let p = GenTrack2Parameters { lost_cost: 0.01, lost_cost_returns: 0.5, ..Default::default() };
-        let of = |back: f64, total: f64| ReturnRecord { back, total }.lost_cost(&p);
+        let record = |back: f64, gone: f64| {
+            let mut share = RunningShare::default();
+            share.learn(back, true);
+            share.learn(gone, false);
+            ReturnRecord(share)
+        };
+        let of = |back: f64, gone: f64| record(back, gone).lost_cost(&p);
         // 15 of 20 come back: half the usual doubt; 11.5 of 23: all of it.
-        assert!((of(8.5, 10.0) - 0.01 * (0.25f64 / 0.5).sqrt()).abs() < 1e-15, "{}", of(8.5, 10.0));
-        assert!((of(5.0, 13.0) - 0.01).abs() < 1e-15);
+        assert!((of(8.5, 1.5) - 0.01 * (0.25f64 / 0.5).sqrt()).abs() < 1e-15, "{}", of(8.5, 1.5));
+        assert!((of(5.0, 8.0) - 0.01).abs() < 1e-15);
         assert!(of(0.0, 50.0) > 0.01);
         let constant = GenTrack2Parameters { lost_cost_returns: 0.0, ..p };
-        assert_eq!(ReturnRecord { back: 0.0, total: 50.0 }.lost_cost(&constant), 0.01);
+        assert_eq!(record(0.0, 50.0).lost_cost(&constant), 0.01);
     }
 }
