@@ -220,7 +220,8 @@
 #define GT2_TRACKS_REPORTED 0
 
 /// Kind of list: tracks too young to be reported; with sort and ocsort also those seen again after a miss until they
-/// have been seen often enough in a row.
+/// have been seen often enough in a row, and with gentrack2 those whose box, of doubtful score, is mostly beyond the
+/// image's border.
 #define GT2_TRACKS_TENTATIVE 1
 
 /// Kind of list: live tracks without a detection that are not reported, with their predicted box.

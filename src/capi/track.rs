@@ -15,7 +15,8 @@ pub const GT2_TRACK_LOST: i32 = 3;
 /// are in this list with the state `GT2_TRACK_TENTATIVE`: botsort and smiletrack always, conftrack in the first frame.
 pub const GT2_TRACKS_REPORTED: i32 = 0;
 /// Kind of list: tracks too young to be reported; with sort and ocsort also those seen again after a miss until they
-/// have been seen often enough in a row.
+/// have been seen often enough in a row, and with gentrack2 those whose box, of doubtful score, is mostly beyond the
+/// image's border.
 pub const GT2_TRACKS_TENTATIVE: i32 = 1;
 /// Kind of list: live tracks without a detection that are not reported, with their predicted box.
 pub const GT2_TRACKS_LOST: i32 = 2;

@@ -16,6 +16,7 @@
 
 mod ageing;
 mod appearance_model;
+mod border;
 mod coasting;
 mod common_motion;
 mod covering;
@@ -274,7 +275,7 @@ impl GenTrack2 {
         let (p, work, memory) = (&self.parameters, &mut self.work, &mut self.memory);
         let rule = context.classes;
         let room = context.max_tracks.saturating_sub(memory.targets.len());
-        work.births.choose(p, &memory.targets, &work.observations, &work.association.taken, rule, room);
+        work.births.choose(p, &memory.targets, &work.observations, &work.association.taken, frame.size(), rule, room);
         // Those born in this frame are not asked whether they are somebody else.
         let known = memory.targets.len();
         work.unseen.clear();
@@ -355,7 +356,9 @@ impl GenTrack2 {
                 let predicted = !target.dormant
                     && !removal::is_outside(target, frame_size)
                     && coasting::is_reported(p, target, &memory.scene, &memory.record);
-                target.reported = target.confirmed && (target.is_strong() || predicted);
+                target.reported = target.confirmed
+                    && (target.is_strong() || predicted)
+                    && border::may_be_reported(p, target, frame_size);
             }
             reporting::report(target, output);
         }

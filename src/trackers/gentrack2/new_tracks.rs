@@ -4,6 +4,7 @@ use crate::classes::ClassRule;
 use crate::frame::Detection;
 use crate::geometry::Rect;
 
+use super::border;
 use super::observations::Observations;
 use super::parameters::GenTrack2Parameters;
 use super::target::Target;
@@ -28,12 +29,14 @@ pub struct Births {
 impl Births {
     /// Chooses at most `room` of the detections that were not taken. A detection on top of a strong or new track is a
     /// second look at the same object, not another one.
+    #[allow(clippy::too_many_arguments)]
     pub fn choose(
         &mut self,
         p: &GenTrack2Parameters,
         targets: &[Target],
         observations: &Observations,
         taken: &[bool],
+        frame_size: Option<(u32, u32)>,
         rule: ClassRule,
         room: usize,
     ) {
@@ -48,6 +51,9 @@ impl Births {
             let detection = &observations.get(index).detection;
             if detection.score < p.birth_score || self.chosen.len() >= room {
                 break;
+            }
+            if !border::may_start(p, detection, frame_size) {
+                continue;
             }
             if check && self.overlaps(detection, p.birth_iou, rule) {
                 continue;
@@ -78,11 +84,13 @@ mod tests {
     use super::*;
     use crate::frame::{Detection, Frame};
 
+    const SIZE: Option<(u32, u32)> = Some((200, 100));
+
     fn chosen_rows(p: &GenTrack2Parameters, targets: &[Target], detections: &[Detection], room: usize) -> Vec<u32> {
         let mut observations = Observations::default();
         observations.prepare(&Frame::new(detections), 0.0);
         let mut births = Births::default();
-        births.choose(p, targets, &observations, &vec![false; detections.len()], ClassRule::default(), room);
+        births.choose(p, targets, &observations, &vec![false; detections.len()], SIZE, ClassRule::default(), room);
         births.chosen.iter().map(|i| observations.get(*i as usize).row).collect()
     }
 
@@ -96,6 +104,21 @@ mod tests {
         let p = GenTrack2Parameters { birth_score: 0.7, ..Default::default() };
         assert_eq!(chosen_rows(&p, &[], &detections, 10), [2, 1]);
         assert_eq!(chosen_rows(&p, &[], &detections, 1), [2]);
+    }
+
+    #[test]
+    fn at_the_border_more_confidence_is_asked() {
+        // 4 of 10 columns are within the image.
+        let detections = [Detection::new(196.0, 0.0, 10.0, 10.0, 0.87), Detection::new(-6.0, 50.0, 10.0, 10.0, 0.875)];
+        let p = GenTrack2Parameters {
+            birth_score: 0.75,
+            border_birth_share: 0.5,
+            border_birth_excess: 0.125,
+            ..Default::default()
+        };
+        assert_eq!(chosen_rows(&p, &[], &detections, 10), [1]);
+        let off = GenTrack2Parameters { border_birth_excess: 0.0, ..p };
+        assert_eq!(chosen_rows(&off, &[], &detections, 10), [1, 0]);
     }
 
     #[test]

@@ -185,9 +185,9 @@ parameters! {
         /// unpredictably it says less about who is who, unless their looks tell ...
         soft_residual: f64 = 0.067, [0.001, 10.0], "box diagonals", "";
         /// ... but never less than this share of it. 1 is the paper's text.
-        soft_least: f64 = 0.55, [0.0, 1.0], "", "";
+        soft_least: f64 = 0.5, [0.0, 1.0], "", "";
         /// Cost of a detection that overlaps another, times their IoU: in a crowd a box fits several targets.
-        crowd_cost: f64 = 0.05, [0.0, 2.0], "", "";
+        crowd_cost: f64 = 0.06, [0.0, 2.0], "", "";
         /// Cost per tick of a track's time without a match, ...
         lost_cost: f64 = 0.0056, [0.0, 1.0], "per tick", "";
         /// ... beyond this time.
@@ -203,7 +203,7 @@ parameters! {
         /// Detections below this score are ignored.
         min_score: f64 = 0.1, [0.0, 1.0], "", "";
         /// Detections below this score are low ...
-        low_score: f64 = 0.62, [0.0, 1.0], "", "";
+        low_score: f64 = 0.68, [0.0, 1.0], "", "";
         /// ... and admissible only up to this motion cost.
         low_score_gate: f64 = 0.2, [0.0, 1.0], "", "";
         /// Tentative tracks, and tracks missed for `doubt_after`, take only detections of at least this score.
@@ -214,6 +214,10 @@ parameters! {
         // Births (eq. 10).
         /// Smallest score of a detection that starts a track.
         birth_score: f64 = 0.69, [0.0, 1.0], "", "";
+        /// A detection of which less than this share is within the image (where its size is known) starts a track ...
+        border_birth_share: f64 = 0.5, [0.0, 1.0], "", "";
+        /// ... only if its score exceeds birth_score by this much: the rest of its box is a guess. 0 turns it off.
+        border_birth_excess: f64 = 0.1, [0.0, 1.0], "", "";
         /// A detection that would start a track goes to a confirmed target without one instead if their cost is at most
         /// this much beyond `cost_gate`: that it lives on is likelier than that another is born where it should be. 0
         /// turns it off.
@@ -312,6 +316,9 @@ parameters! {
         velocity_doubt: f64 = 5.0, [0.0, 1e3], "ticks", "";
 
         // Reporting.
+        /// A track of whose box less than this share is within the image (where its size is known) is reported only while
+        /// the mean score of its last detections is at least birth_score. 0 turns it off.
+        border_report_share: f64 = 0.25, [0.0, 1.0], "", "";
         /// Frames without a match for which a confirmed track is still reported.
         report_missed: i64 = 1, [0, 1000], "frames", "";
         /// The same for tracks whose motion has proved predictable.
@@ -363,6 +370,8 @@ impl GenTrack2Parameters {
                 low_score_gate: 1.0,
                 doubt_score: 0.0,
                 birth_iou: 1.0,
+                border_birth_excess: 0.0,
+                border_report_share: 0.0,
                 late_gate: 0.0,
                 reacquire_reach: 0.0,
                 confirm_hits: 1,

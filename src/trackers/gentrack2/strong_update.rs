@@ -7,9 +7,13 @@ use super::parameters::{GenTrack2Parameters, StrongUpdate};
 use super::target::Target;
 use super::whiteness::Trust;
 
+/// Share of a detection's score in the running mean: the mean is over some ten detections.
+const MEAN_SCORE_GAIN: f64 = 0.1;
+
 /// Updates state, penalty, age and counters of a matched target.
 pub fn update(p: &GenTrack2Parameters, target: &mut Target, row: u32, detection: &Detection, trust: &Trust) {
     target.life.take(row, detection);
+    target.mean_score += MEAN_SCORE_GAIN * (detection.score - target.mean_score);
     target.state = updated_state(p, target, detection, trust);
     target.penalty = p.strong_penalty * (1.0 - detection.score);
     target.age = 0.0;
@@ -127,6 +131,16 @@ mod tests {
         };
         // .4, .8; .2, .4, .6.
         assert_eq!((hits_needed(0.9), hits_needed(0.7)), (2, 3));
+    }
+
+    #[test]
+    fn the_mean_score_follows_the_detections() {
+        let p = GenTrack2Parameters::default();
+        let mut target = target(1);
+        assert_eq!(target.mean_score, 0.9);
+        // .9 + .1 * (.5 - .9) = .86.
+        update(&p, &mut target, 0, &detection(120.0, 50.0, 0.5), &Trust::NOMINAL);
+        assert!((target.mean_score - 0.86).abs() < 1e-12);
     }
 
     #[test]

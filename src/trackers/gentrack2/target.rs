@@ -88,6 +88,8 @@ pub struct Target {
     pub last_error: Option<State>,
     /// What speaks for the track: scores of its detections above `evidence_score`, added up.
     pub evidence: f64,
+    /// Running mean of its detections' scores.
+    pub mean_score: f64,
     /// The particles.
     pub particles: Vec<Hypothesis>,
     /// State of the swarm's global best, `X_g`.
@@ -129,6 +131,7 @@ impl Target {
             residual: Residual::default(),
             last_error: None,
             evidence: 0.0,
+            mean_score: 0.0,
             particles: Vec::new(),
             global_best: State::default(),
             global_fitness: 1.0,
@@ -152,6 +155,7 @@ impl Target {
     pub fn begin(&mut self, life: Life, index: u32, seed: u64, particles: usize) {
         let state = State::from(life.last.rect);
         self.random = Random::new(seed, life.id);
+        self.mean_score = life.last.score;
         self.life = life;
         self.state = state;
         self.previous = state;

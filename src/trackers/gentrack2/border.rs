@@ -1,0 +1,80 @@
+//! Boxes that the image's border cuts off: the detector has guessed the part beyond it, so that they start a track, and
+//! are reported, only where scores vouch for them.
+
+use crate::frame::Detection;
+use crate::geometry::Rect;
+
+use super::parameters::GenTrack2Parameters;
+use super::target::Target;
+
+/// Whether a detection is sure enough, for where it is, to start a track.
+pub fn may_start(p: &GenTrack2Parameters, detection: &Detection, frame_size: Option<(u32, u32)>) -> bool {
+    detection.score >= p.birth_score + p.border_birth_excess
+        || share_within(&detection.rect, frame_size) >= p.border_birth_share
+}
+
+/// Whether a target is sure enough, for where it is, to be reported.
+pub fn may_be_reported(p: &GenTrack2Parameters, target: &Target, frame_size: Option<(u32, u32)>) -> bool {
+    target.mean_score >= p.birth_score || share_within(&target.state.into(), frame_size) >= p.border_report_share
+}
+
+/// Share of a box that is within the image; 1 if its size is not known.
+fn share_within(rect: &Rect, frame_size: Option<(u32, u32)>) -> f64 {
+    frame_size.map_or(1.0, |(width, height)| {
+        rect.intersection(&Rect::new(0.0, 0.0, width as f64, height as f64)) / rect.area()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIZE: Option<(u32, u32)> = Some((100, 80));
+
+    fn parameters() -> GenTrack2Parameters {
+        GenTrack2Parameters {
+            border_birth_share: 0.5,
+            birth_score: 0.75,
+            border_birth_excess: 0.125,
+            border_report_share: 0.25,
+            ..Default::default()
+        }
+    }
+
+    fn may_start_at(left: f64, top: f64, score: f64, frame_size: Option<(u32, u32)>) -> bool {
+        may_start(&parameters(), &Detection::new(left, top, 20.0, 40.0, score), frame_size)
+    }
+
+    fn may_be_reported_at(left: f64, top: f64, mean_score: f64, frame_size: Option<(u32, u32)>) -> bool {
+        let mut target = Target::born(&Detection::new(left, top, 20.0, 40.0, 0.9), 0, 1);
+        target.mean_score = mean_score;
+        may_be_reported(&parameters(), &target, frame_size)
+    }
+
+    #[test]
+    fn the_more_is_beyond_the_border_the_better_the_score_must_be() {
+        // 20 of 40 rows are within, a half; then 19.
+        assert!(may_start_at(40.0, -20.0, 0.87, SIZE));
+        assert!(!may_start_at(40.0, -21.0, 0.87, SIZE));
+        assert!(may_start_at(40.0, -21.0, 0.875, SIZE));
+        // A quarter; then 9 of 40 rows.
+        assert!(may_be_reported_at(40.0, -30.0, 0.74, SIZE));
+        assert!(!may_be_reported_at(40.0, -31.0, 0.74, SIZE));
+        assert!(may_be_reported_at(40.0, -31.0, 0.75, SIZE));
+    }
+
+    #[test]
+    fn every_border_is_one() {
+        // 4 of 20 columns at the right and at the left, 8 rows at the bottom, a corner, nothing at all.
+        for (left, top) in [(96.0, 20.0), (-16.0, 20.0), (40.0, 72.0), (90.0, -25.0), (300.0, 20.0)] {
+            assert!(!may_start_at(left, top, 0.5, SIZE), "{left} {top}");
+            assert!(!may_be_reported_at(left, top, 0.5, SIZE), "{left} {top}");
+        }
+    }
+
+    #[test]
+    fn without_a_size_of_the_image_there_is_no_border() {
+        assert!(may_start_at(40.0, -31.0, 0.1, None));
+        assert!(may_be_reported_at(40.0, -31.0, 0.1, None));
+    }
+}
