@@ -41,7 +41,7 @@ WITHOUT = [
     ("covered-pace", "covered_pace=1"),
     ("life-outside", "outside_pace=1000"),
     ("coasting", "coast=0"),
-    ("doubt-at-the-border", "border_birth_excess=0,border_report_share=0"),
+    ("doubt-at-the-border", "border_birth_factor=1,border_report_share=0"),
     ("predicted-reference", "history_reference=previous"),
 ]
 

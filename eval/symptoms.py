@@ -60,16 +60,16 @@ CASES = {
     "leaving": rows("I", "ADL-Rundle-6", "recognition_time=0", "", "recognition_time=300"),
     "doubles": rows("P", "MOT17-04", "birth_iou=1", "", "birth_iou=0.3"),
     "boxes": rows("R", "MOT17-04", "strong_update=replace", "", "blend_centre=0.4 blend_size=0.3")
-    + rows("D", "dancetrack0004", "", "blend_centre=1 blend_size=1 blend_adaptation=0"),
+    + rows("D", "dancetrack0025", "", "blend_centre=1 blend_size=1 blend_adaptation=0"),
     "coasting": rows("D", "dancetrack0025", "", "coast=0", "coast=0 report_missed=0"),
-    "border": rows("P", "MOT17-04", "", "border_report_share=0", "border_report_share=0 border_birth_excess=0"),
+    "border": rows("P", "MOT17-04", "", "border_report_share=0", "border_report_share=0 border_birth_factor=1"),
     "camera": [Row("without its motion", "H", "MOT17-05", given={"gmc": None}), Row("with it", "H", "MOT17-05")],
     "rate": [row for name, rate in (("MOT17-09", "7.5"), ("MOT17-05", "3.5"))
              for row in (Row("`frame_rate` left at 30", "L4", name, given={"fps": 30.0}),
                          Row(f"`frame_rate` = {rate}", "L4", name))],
     "scores": rows("H", "MOT17-09", "", "low_score=0.41 doubt_score=0.3 evidence_score=0.27 birth_score=0.41 "
                    "confirm_evidence=0.53", scores=0.6),
-    "fast": rows("D", "dancetrack0004", "", "min_iou=0", "min_iou=0 distance_scale_max=2")
+    "fast": rows("D", "dancetrack0025", "", "min_iou=0", "min_iou=0 distance_scale_max=2")
     + rows("I0", "TUD-Stadtmitte", "", "min_iou=0", "min_iou=0 distance_scale_max=2"),
 }
 COLUMNS_OF = {"boxes": COLUMNS | TREMBLE}

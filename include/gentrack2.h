@@ -351,7 +351,8 @@ typedef struct gt2_frame {
     /// is not known; the identity says that it stood still, which trackers then need not guess.
     const double *camera_motion;
     /// Width of the frame in pixels where no image is given, otherwise 0 or the image's; 0 with `image_height` 0 if
-    /// unknown. gentrack2 ends tracks sooner that are known to be out of the frame.
+    /// unknown. gentrack2 ends tracks sooner that are known to be out of the frame, and takes boxes that are mostly
+    /// beyond its border less seriously.
     uint32_t image_width;
     /// Height of the frame in pixels, as `image_width`.
     uint32_t image_height;

@@ -452,7 +452,7 @@ public:
     /// What the tracker stands for in this frame: matched tracks, and lost ones whose predicted box is trusted. A live
     /// track is in exactly one of reported(), tentative() and lost().
     Tracks reported() const { return tracks(GT2_TRACKS_REPORTED); }
-    /// Tracks too young to be reported.
+    /// Tracks too young to be reported, or, as `GT2_TRACKS_TENTATIVE` says, not trusted for another reason.
     Tracks tentative() const { return tracks(GT2_TRACKS_TENTATIVE); }
     /// Live tracks without a detection that are not reported, with their predicted box.
     Tracks lost() const { return tracks(GT2_TRACKS_LOST); }

@@ -32,12 +32,15 @@ struct Given {
     camera: bool,
     /// Two classes, now and then mistaken for each other.
     classes: bool,
+    /// A picture of the scene's left half alone, with whole boxes beyond its border.
+    half: bool,
 }
 
-const NOTHING: Given = Given { image: false, embeddings: false, camera: false, classes: false };
+const NOTHING: Given = Given { image: false, embeddings: false, camera: false, classes: false, half: false };
 const IMAGE: Given = Given { image: true, ..NOTHING };
 const EMBEDDINGS: Given = Given { embeddings: true, ..NOTHING };
 const CAMERA: Given = Given { camera: true, ..NOTHING };
+const HALF: Given = Given { half: true, ..NOTHING };
 const CLASSES: Given = Given { classes: true, ..NOTHING };
 
 /// A scene with what the tracker is given of it, and the settings under which a parameter may matter.
@@ -80,7 +83,7 @@ impl Setup {
         let result = tracker.step(&Frame {
             detections: &detections,
             image: image.map(|d| ImageView::new(d, width, height, 0, PixelFormat::Gray8).unwrap()),
-            size: Some((width, height)),
+            size: Some((if self.given.half { width / 2 } else { width }, height)),
             embeddings: self.given.embeddings.then(|| Embeddings::new(&looks, 4)),
             camera_motion: self.given.camera.then_some(seen.camera_motion),
             timestamp_ns: Some((seen.time * 1e9) as i64),
@@ -155,6 +158,8 @@ fn setups(algorithm: Algorithm) -> Vec<Setup> {
             new(crowd(), NOTHING, &[("cost_gate", "0.15")]),
             new(crowd(), EMBEDDINGS, &[("cost_gate", "0.1"), ("min_iou", "0.02")]),
             new(hidden(), NOTHING, &[("reacquire_reach", "0")]),
+            // Many have no better scores than a birth needs.
+            new(comings_and_goings(), HALF, &[("birth_score", "0.88")]),
             // Those who were lost come back, sooner than anybody could go far and beside others.
             new(stage::turning_back_unseen(0), IMAGE, &[("recognition_speed", "0.001")]),
             new(stage::turning_back_unseen(0), IMAGE, &[("recognition_margin", "0.2")]),

@@ -263,6 +263,54 @@ mod skipped_detector {
     }
 }
 
+/// Boxes that the image's border cuts off.
+mod at_the_border {
+    use super::*;
+
+    const SIZE: Option<(u32, u32)> = Some((640, 480));
+
+    /// A step with one detection of which this share is right of the left border.
+    fn step(tracker: &mut Tracker, share: f64, score: f64) -> gentrack2::Output {
+        let detections = [Detection::new(-40.0 * (1.0 - share), 100.0, 40.0, 100.0, score)];
+        tracker.step(&Frame { size: SIZE, ..Frame::new(&detections) }).unwrap().clone()
+    }
+
+    #[test]
+    fn who_is_mostly_beyond_it_is_tracked_and_reported_again_when_he_is_back() {
+        let mut tracker = tracker(0);
+        for _ in 0..10 {
+            assert_eq!(step(&mut tracker, 1.0, 0.9).track_of_detection, [1]);
+        }
+        // Out in ten frames; scores fall as less is seen.
+        for out in 1..=10 {
+            step(&mut tracker, 1.0 - 0.08 * f64::from(out), 0.9);
+        }
+        let beyond = (0..20).map(|_| step(&mut tracker, 0.2, 0.4)).last().unwrap();
+        assert_eq!(beyond.track_of_detection, [1]);
+        assert_eq!((beyond.reported.len(), beyond.lost.len()), (0, 0));
+        assert_eq!((beyond.tentative[0].id, beyond.tentative[0].state), (1, TrackState::Confirmed));
+        for back in 1..=10 {
+            step(&mut tracker, 0.2 + 0.08 * f64::from(back), 0.4);
+        }
+        assert_eq!(step(&mut tracker, 1.0, 0.4).reported[0].id, 1);
+    }
+
+    #[test]
+    fn good_scores_vouch_for_what_is_beyond_it() {
+        let mut tracker = tracker(0);
+        for share in (2..=10).rev().chain([2; 20]) {
+            step(&mut tracker, 0.1 * f64::from(share), 0.9);
+        }
+        assert_eq!(step(&mut tracker, 0.2, 0.9).reported[0].id, 1);
+    }
+
+    #[test]
+    fn who_comes_in_starts_a_track_when_enough_is_seen_or_scores_are_good() {
+        let births = |share: f64, score: f64| step(&mut tracker(0), share, score).track_of_detection[0];
+        assert_eq!((births(0.4, 0.75), births(0.6, 0.75), births(0.4, 0.85)), (0, 1, 1));
+    }
+}
+
 /// What comes back on tracks besides their box.
 mod bookkeeping {
     use super::*;

@@ -8,9 +8,12 @@
 namespace examples {
 namespace {
 
+// Whether a track is in the list of those that are seen, but not trusted yet, or not here.
+bool is_doubtful(const TrackedObject &t) { return !t.reported && t.state != TrackState::lost; }
+
 Look look(const TrackedObject &t) {
     if (t.reported) return t.matched ? Look::strong : Look::weak;
-    return t.state == TrackState::tentative ? Look::tentative : Look::lost;
+    return is_doubtful(t) ? Look::tentative : Look::lost;
 }
 
 std::string label(const TrackedObject &t, const std::vector<std::string> &names) {
@@ -24,7 +27,7 @@ std::string label(const TrackedObject &t, const std::vector<std::string> &names)
 std::vector<DrawnTrack> drawn_tracks(const Session &session, const DrawingOptions &o) {
     std::vector<DrawnTrack> tracks;
     for (const TrackedObject &t : session.tracks(true)) {
-        if (t.state == TrackState::tentative && !t.reported && !o.tentative) continue;
+        if (is_doubtful(t) && !o.tentative) continue;
         DrawnTrack d{t.row.id, {t.row.left, t.row.top, t.row.width, t.row.height}, look(t), label(t, o.class_names),
                      o.focus.count(t.row.id) > 0, {}, {}};
         const bool explained = o.focus.empty() || d.in_focus;

@@ -38,7 +38,8 @@ pub struct gt2_frame {
     /// is not known; the identity says that it stood still, which trackers then need not guess.
     pub camera_motion: *const f64,
     /// Width of the frame in pixels where no image is given, otherwise 0 or the image's; 0 with `image_height` 0 if
-    /// unknown. gentrack2 ends tracks sooner that are known to be out of the frame.
+    /// unknown. gentrack2 ends tracks sooner that are known to be out of the frame, and takes boxes that are mostly
+    /// beyond its border less seriously.
     pub image_width: u32,
     /// Height of the frame in pixels, as `image_width`.
     pub image_height: u32,

@@ -9,7 +9,7 @@ use super::target::Target;
 
 /// Whether a detection is sure enough, for where it is, to start a track.
 pub fn may_start(p: &GenTrack2Parameters, detection: &Detection, frame_size: Option<(u32, u32)>) -> bool {
-    detection.score >= p.birth_score + p.border_birth_excess
+    detection.score >= (p.birth_score * p.border_birth_factor).min(1.0)
         || share_within(&detection.rect, frame_size) >= p.border_birth_share
 }
 
@@ -18,11 +18,16 @@ pub fn may_be_reported(p: &GenTrack2Parameters, target: &Target, frame_size: Opt
     target.mean_score >= p.birth_score || share_within(&target.state.into(), frame_size) >= p.border_report_share
 }
 
-/// Share of a box that is within the image; 1 if its size is not known.
+/// Share of a box that is within the image, or of the image that is within the box if that is the larger of the two; 1
+/// if the image's size is not known.
 fn share_within(rect: &Rect, frame_size: Option<(u32, u32)>) -> f64 {
-    frame_size.map_or(1.0, |(width, height)| {
-        rect.intersection(&Rect::new(0.0, 0.0, width as f64, height as f64)) / rect.area()
-    })
+    let Some((width, height)) = frame_size else { return 1.0 };
+    let image = Rect::new(0.0, 0.0, width as f64, height as f64);
+    // Rounding must not make less than all of a box that is wholly within.
+    if rect.left >= 0.0 && rect.top >= 0.0 && rect.right() <= image.width && rect.bottom() <= image.height {
+        return 1.0;
+    }
+    rect.intersection(&image) / rect.area().min(image.area())
 }
 
 #[cfg(test)]
@@ -35,7 +40,7 @@ mod tests {
         GenTrack2Parameters {
             border_birth_share: 0.5,
             birth_score: 0.75,
-            border_birth_excess: 0.125,
+            border_birth_factor: 1.125,
             border_report_share: 0.25,
             ..Default::default()
         }
@@ -53,10 +58,10 @@ mod tests {
 
     #[test]
     fn the_more_is_beyond_the_border_the_better_the_score_must_be() {
-        // 20 of 40 rows are within, a half; then 19.
-        assert!(may_start_at(40.0, -20.0, 0.87, SIZE));
-        assert!(!may_start_at(40.0, -21.0, 0.87, SIZE));
-        assert!(may_start_at(40.0, -21.0, 0.875, SIZE));
+        // 20 of 40 rows are within, a half; then 19. .75 * 1.125 = .84375.
+        assert!(may_start_at(40.0, -20.0, 0.84, SIZE));
+        assert!(!may_start_at(40.0, -21.0, 0.84, SIZE));
+        assert!(may_start_at(40.0, -21.0, 0.844, SIZE));
         // A quarter; then 9 of 40 rows.
         assert!(may_be_reported_at(40.0, -30.0, 0.74, SIZE));
         assert!(!may_be_reported_at(40.0, -31.0, 0.74, SIZE));
@@ -70,6 +75,28 @@ mod tests {
             assert!(!may_start_at(left, top, 0.5, SIZE), "{left} {top}");
             assert!(!may_be_reported_at(left, top, 0.5, SIZE), "{left} {top}");
         }
+    }
+
+    #[test]
+    fn who_fills_the_image_is_not_beyond_its_border() {
+        let close = |left| Rect::new(left, -300.0, 400.0, 800.0);
+        assert_eq!(share_within(&close(-150.0), SIZE), 1.0);
+        assert_eq!(share_within(&close(75.0), SIZE), 0.25);
+    }
+
+    #[test]
+    fn all_of_a_box_within_is_all_of_it() {
+        for k in 0..1000 {
+            let x = f64::from(k) * 0.0317;
+            assert_eq!(share_within(&Rect::new(x, 0.7 * x, 20.1 + 1.3 * x, 10.3 + x), SIZE), 1.0, "{x}");
+        }
+    }
+
+    #[test]
+    fn a_factor_beyond_every_score_asks_for_the_best() {
+        let p = GenTrack2Parameters { border_birth_factor: 10.0, ..parameters() };
+        let score = |score| may_start(&p, &Detection::new(-15.0, 20.0, 20.0, 40.0, score), SIZE);
+        assert!(!score(0.99) && score(1.0));
     }
 
     #[test]

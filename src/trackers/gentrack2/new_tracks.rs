@@ -109,15 +109,15 @@ mod tests {
     #[test]
     fn at_the_border_more_confidence_is_asked() {
         // 4 of 10 columns are within the image.
-        let detections = [Detection::new(196.0, 0.0, 10.0, 10.0, 0.87), Detection::new(-6.0, 50.0, 10.0, 10.0, 0.875)];
+        let detections = [Detection::new(196.0, 0.0, 10.0, 10.0, 0.84), Detection::new(-6.0, 50.0, 10.0, 10.0, 0.85)];
         let p = GenTrack2Parameters {
             birth_score: 0.75,
             border_birth_share: 0.5,
-            border_birth_excess: 0.125,
+            border_birth_factor: 1.125,
             ..Default::default()
         };
         assert_eq!(chosen_rows(&p, &[], &detections, 10), [1]);
-        let off = GenTrack2Parameters { border_birth_excess: 0.0, ..p };
+        let off = GenTrack2Parameters { border_birth_factor: 1.0, ..p };
         assert_eq!(chosen_rows(&off, &[], &detections, 10), [1, 0]);
     }
 

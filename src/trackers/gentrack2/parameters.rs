@@ -216,8 +216,9 @@ parameters! {
         birth_score: f64 = 0.69, [0.0, 1.0], "", "";
         /// A detection of which less than this share is within the image (where its size is known) starts a track ...
         border_birth_share: f64 = 0.5, [0.0, 1.0], "", "";
-        /// ... only if its score exceeds birth_score by this much: the rest of its box is a guess. 0 turns it off.
-        border_birth_excess: f64 = 0.1, [0.0, 1.0], "", "";
+        /// ... only if its score is at least birth_score times this (but no more than 1): the rest of its box is a guess. 1
+        /// turns it off.
+        border_birth_factor: f64 = 1.14, [1.0, 10.0], "", "";
         /// A detection that would start a track goes to a confirmed target without one instead if their cost is at most
         /// this much beyond `cost_gate`: that it lives on is likelier than that another is born where it should be. 0
         /// turns it off.
@@ -370,7 +371,7 @@ impl GenTrack2Parameters {
                 low_score_gate: 1.0,
                 doubt_score: 0.0,
                 birth_iou: 1.0,
-                border_birth_excess: 0.0,
+                border_birth_factor: 1.0,
                 border_report_share: 0.0,
                 late_gate: 0.0,
                 reacquire_reach: 0.0,
