@@ -15,8 +15,8 @@ import tempfile
 
 import own_venv
 
-# The least that GenTrack2 must reach, and the most identity switches. Half: the second halves of all sequences, with camera motion. Humans: MOT17-04
-# in the paper's set-up, static persons counting too.
+# The least that GenTrack2 must reach, and the most identity switches. Half: the second halves of all sequences, with
+# camera motion. Humans: MOT17-04 in the paper's set-up, static persons counting too.
 HALF = {"HOTA": 73.2, "IDF1": 86.0, "MOTA": 81.5, "ATA": 62.0}, 90
 HUMANS = {"HOTA": 82.0, "IDF1": 92.5, "MOTA": 87.4, "ATA": 82.0}, 12
 
