@@ -1,11 +1,17 @@
-//! Boxes that the image's border cuts off: the detector has guessed the part beyond it, so that they start a track, and
-//! are reported, only where scores vouch for them.
+//! The image's border: who is beyond it, and boxes that it cuts off. The detector has guessed the part beyond it, so that
+//! they start a track, and are reported, only where scores vouch for them.
 
 use crate::frame::Detection;
 use crate::geometry::Rect;
 
 use super::parameters::GenTrack2Parameters;
 use super::target::Target;
+
+/// Whether the centre lies outside the frame.
+pub fn is_outside(target: &Target, frame_size: Option<(u32, u32)>) -> bool {
+    let (u, v) = (target.state.u, target.state.v);
+    frame_size.is_some_and(|(width, height)| u < 0.0 || v < 0.0 || u >= width as f64 || v >= height as f64)
+}
 
 /// Whether a detection is sure enough, for where it is, to start a track.
 pub fn may_start(p: &GenTrack2Parameters, detection: &Detection, frame_size: Option<(u32, u32)>) -> bool {

@@ -261,8 +261,7 @@ impl GenTrack2 {
             target.state.v += shift.1;
             target.covered = target.covered.max(covered[index]);
             if since_detector > 0.0 {
-                let blamed =
-                    since_detector * ageing::pace(p, covered[index], removal::is_outside(target, frame.size()));
+                let blamed = since_detector * ageing::pace(p, covered[index], border::is_outside(target, frame.size()));
                 target.missed += since_detector;
                 target.blamed += blamed;
                 target.missed_frames = target.missed_frames.saturating_add(1);
@@ -340,7 +339,7 @@ impl GenTrack2 {
                 returns.gone(target);
             }
             // Who went out of the image says nothing about predictions within.
-            if !target.dormant && !removal::is_outside(target, frame_size) {
+            if !target.dormant && !border::is_outside(target, frame_size) {
                 record.gone(p, target);
             }
             target.dormant = !full && !removal::is_void(target) && recognition::is_remembered(p, target);
@@ -354,7 +353,7 @@ impl GenTrack2 {
         for target in &mut memory.targets {
             if detector_ran {
                 let predicted = !target.dormant
-                    && !removal::is_outside(target, frame_size)
+                    && !border::is_outside(target, frame_size)
                     && coasting::is_reported(p, target, &memory.scene, &memory.record);
                 target.reported = target.confirmed
                     && (target.is_strong() || predicted)

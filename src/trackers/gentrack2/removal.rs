@@ -1,4 +1,4 @@
-//! Removal of expired tracks (eq. 15); which tracks are outside the image.
+//! Removal of expired tracks (eq. 15).
 
 use super::parameters::GenTrack2Parameters;
 use super::target::Target;
@@ -20,12 +20,6 @@ pub fn is_given_up(p: &GenTrack2Parameters, target: &Target) -> bool {
 pub fn is_void(target: &Target) -> bool {
     let unconfirmed_miss = !target.confirmed && target.missed > 0.0;
     unconfirmed_miss || !is_sane(target)
-}
-
-/// Whether the centre lies outside the frame.
-pub fn is_outside(target: &Target, frame_size: Option<(u32, u32)>) -> bool {
-    let (u, v) = (target.state.u, target.state.v);
-    frame_size.is_some_and(|(width, height)| u < 0.0 || v < 0.0 || u >= width as f64 || v >= height as f64)
 }
 
 fn is_sane(target: &Target) -> bool {
