@@ -101,8 +101,8 @@ pub struct Frame<'a> {
     pub embeddings: Option<Embeddings<'a>>,
     /// The image, for trackers that look at it.
     pub image: Option<ImageView<'a>>,
-    /// Width and height of the frame in pixels where no image is given: tracks that leave it can be
-    /// ended, and boxes mostly beyond its border taken less seriously.
+    /// Width and height of the frame in pixels where no image is given: tracks that leave it can be ended,
+    /// and boxes mostly beyond its border taken less seriously.
     pub size: Option<(u32, u32)>,
     /// Camera motion since the previous frame; the identity says that it stood still, `None` that it is not known.
     pub camera_motion: Option<CameraMotion>,

@@ -105,8 +105,8 @@ pub struct Output {
     /// Tracks the algorithm stands for in this frame: what a user draws or writes to a file. Matched tracks, and
     /// lost ones whose predicted box is trusted; with algorithms that report new tracks at once also tentative ones.
     pub reported: Vec<Track>,
-    /// Tracks too young to be reported, seen again and not yet trusted again, or mostly beyond the image's border with doubtful
-    /// scores.
+    /// Tracks too young to be reported, seen again and not yet trusted again, or mostly beyond the image's border with
+    /// doubtful scores.
     pub tentative: Vec<Track>,
     /// Live tracks without a detection that are not reported, with their predicted box.
     pub lost: Vec<Track>,

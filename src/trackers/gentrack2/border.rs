@@ -9,8 +9,7 @@ use super::target::Target;
 
 /// Whether the centre lies outside the frame.
 pub fn is_outside(target: &Target, frame_size: Option<(u32, u32)>) -> bool {
-    let (u, v) = (target.state.u, target.state.v);
-    frame_size.is_some_and(|(width, height)| u < 0.0 || v < 0.0 || u >= width as f64 || v >= height as f64)
+    frame_size.is_some_and(|size| !image(size).contains(target.state.u, target.state.v))
 }
 
 /// Whether a detection is sure enough, for where it is, to start a track.
@@ -27,13 +26,16 @@ pub fn may_be_reported(p: &GenTrack2Parameters, target: &Target, frame_size: Opt
 /// Share of a box that is within the image, or of the image that is within the box if that is the larger of the two; 1
 /// if the image's size is not known.
 fn share_within(rect: &Rect, frame_size: Option<(u32, u32)>) -> f64 {
-    let Some((width, height)) = frame_size else { return 1.0 };
-    let image = Rect::new(0.0, 0.0, width as f64, height as f64);
+    let Some(image) = frame_size.map(image) else { return 1.0 };
     // Rounding must not make less than all of a box that is wholly within.
     if rect.left >= 0.0 && rect.top >= 0.0 && rect.right() <= image.width && rect.bottom() <= image.height {
         return 1.0;
     }
     rect.intersection(&image) / rect.area().min(image.area())
+}
+
+fn image((width, height): (u32, u32)) -> Rect {
+    Rect::new(0.0, 0.0, width as f64, height as f64)
 }
 
 #[cfg(test)]
@@ -88,6 +90,17 @@ mod tests {
         let close = |left| Rect::new(left, -300.0, 400.0, 800.0);
         assert_eq!(share_within(&close(-150.0), SIZE), 1.0);
         assert_eq!(share_within(&close(75.0), SIZE), 0.25);
+    }
+
+    #[test]
+    fn a_centre_on_the_far_edges_is_outside() {
+        let outside = |u: f64, v: f64, size| {
+            is_outside(&Target::born(&Detection::new(u - 10.0, v - 20.0, 20.0, 40.0, 0.9), 0, 1), size)
+        };
+        assert!(!outside(0.0, 0.0, SIZE) && !outside(99.5, 79.5, SIZE));
+        for (u, v) in [(100.0, 40.0), (50.0, 80.0), (-0.5, 40.0), (50.0, -0.5)] {
+            assert!(outside(u, v, SIZE) && !outside(u, v, None), "{u} {v}");
+        }
     }
 
     #[test]
